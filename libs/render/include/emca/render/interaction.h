@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "emca/core/vector.h"
+#include "emca/render/frame.h"
+
+namespace emca::render {
+
+class Shape;
+class Bsdf;
+class Emitter;
+
+/// A point where a ray met a surface. World space, scene units.
+struct SurfaceInteraction {
+    Vec3f position;
+    Vec3f geometricNormal;   ///< unit, of the triangle or analytic shape, not turned towards the ray
+    Frame shading;           ///< shading.n: interpolated or mapped normal, unit
+    Vec3f wo;                ///< local to `shading`: unit, back along the ray (towards the camera)
+    Vec2f uv;                ///< texture coordinates
+    float distance = 0;      ///< along the ray
+    std::int32_t mesh = -1;  ///< index into Scene::meshes(), as the explorer sees it
+    std::int32_t face = -1;  ///< triangle of that mesh (analytic shapes: of their tessellation)
+    const Shape* shape = nullptr;
+    const Bsdf* bsdf = nullptr;        ///< never null after Scene::intersect
+    const Emitter* emitter = nullptr;  ///< area light on this surface, if any
+
+    Vec3f toWorld(Vec3f local) const { return shading.toWorld(local); }
+    Vec3f toLocal(Vec3f world) const { return shading.toLocal(world); }
+};
+
+}  // namespace emca::render
