@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "emca/core/vector.h"
+
+/// Maps from the unit square to the domains of light transport, each with the density it has. `u` is in [0, 1)^2;
+/// the closed interval is harmless. Local space: z is the axis or normal. Densities are per steradian for directions
+/// and per unit area for points in the plane.
+
+namespace emca::render {
+
+inline constexpr float kPi = 3.14159265358979323846f;
+inline constexpr float kInvPi = 0.31830988618379067154f;
+inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;  ///< largest float below 1
+
+inline float square(float x) { return x * x; }
+/// Square root for arguments that only rounding makes negative.
+inline float safeSqrt(float x) { return std::sqrt(std::max(x, 0.f)); }
+
+/// Point in the unit disk; area-preserving and continuous, so that strata of the square stay compact.
+/// Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
+inline Vec2f squareToConcentricDisk(Vec2f u) {
+    const float a = 2.f * u.x - 1.f;
+    const float b = 2.f * u.y - 1.f;
+    if (a == 0.f && b == 0.f) return {0.f, 0.f};
+    if (std::abs(a) > std::abs(b)) {
+        const float angle = (kPi / 4.f) * (b / a);
+        return {a * std::cos(angle), a * std::sin(angle)};
+    }
+    const float angle = (kPi / 4.f) * (a / b);  // measured from the y axis
+    return {b * std::sin(angle), b * std::cos(angle)};
+}
+inline constexpr float squareToConcentricDiskPdf() { return kInvPi; }
+
+/// Direction about z with density cos(theta) / pi (Malley's method).
+inline Vec3f squareToCosineHemisphere(Vec2f u) {
+    const Vec2f d = squareToConcentricDisk(u);
+    return {d.x, d.y, safeSqrt(1.f - d.x * d.x - d.y * d.y)};
+}
+inline float squareToCosineHemispherePdf(float cosTheta) { return std::max(cosTheta, 0.f) * kInvPi; }
+
+/// Direction with polar cosine `cosTheta` and azimuth 2 pi `u`.
+inline Vec3f directionFromCosine(float cosTheta, float u) {
+    const float sinTheta = safeSqrt(1.f - cosTheta * cosTheta);
+    const float phi = 2.f * kPi * u;
+    return {sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta};
+}
+
+inline Vec3f squareToUniformSphere(Vec2f u) { return directionFromCosine(1.f - 2.f * u.x, u.y); }
+inline constexpr float squareToUniformSpherePdf() { return 0.25f * kInvPi; }
+
+inline Vec3f squareToUniformHemisphere(Vec2f u) { return directionFromCosine(u.x, u.y); }
+inline float squareToUniformHemispherePdf(float cosTheta) { return cosTheta >= 0.f ? 0.5f * kInvPi : 0.f; }
+
+/// Direction within the cone about z whose half angle has cosine `cosMax`.
+inline Vec3f squareToUniformCone(Vec2f u, float cosMax) {
+    return directionFromCosine(1.f - u.x * (1.f - cosMax), u.y);
+}
+/// Density inside that cone; the caller knows whether a direction is inside.
+inline float squareToUniformConePdf(float cosMax) { return 0.5f * kInvPi / (1.f - cosMax); }
+
+/// Barycentric coordinates (b1, b2) of a point uniform in a triangle; b0 = 1 - b1 - b2. Density: 1 / area.
+/// Source: Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
+inline Vec2f squareToUniformTriangle(Vec2f u) {
+    const float root = std::sqrt(1.f - u.x);
+    return {1.f - root, u.y * root};
+}
+
+}  // namespace emca::render
