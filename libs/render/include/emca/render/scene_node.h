@@ -42,7 +42,13 @@ struct SceneNode {
     SourceLocation where;
     struct Entry { Property value; SourceLocation where; mutable bool used = false; };
     std::map<std::string, Entry> properties;
-    struct Child { std::string name; std::shared_ptr<const SceneNode> node; };  ///< name: role such as "reflectance"; may be empty
+    /// name: role such as "reflectance"; may be empty. where: of the element or of the <ref> to it
+    struct Child {
+        std::string name;
+        std::shared_ptr<const SceneNode> node;
+        SourceLocation where{};
+        mutable bool used = false;
+    };
     std::vector<Child> children;
 };
 
