@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "emca/core/event.h"
+#include "emca/core/pixel.h"
+
+namespace emca::client {
+
+/// Names a path whatever else is loaded.
+struct PathId {
+    Pixel pixel;
+    std::int64_t sample = 0;
+    std::int32_t part = 0;
+    friend bool operator==(const PathId&, const PathId&) = default;
+    friend std::strong_ordering operator<=>(const PathId&, const PathId&) = default;
+};
+
+struct VertexId {
+    PathId path;
+    std::int32_t depth = 0;
+    Subpath subpath = Subpath::camera;
+    friend bool operator==(const VertexId&, const VertexId&) = default;
+};
+
+/// Parts of a Selection, as bits.
+struct SelectionPart { enum : std::uint32_t { pixel = 1, paths = 2, currentPath = 4, vertex = 8, hover = 16 }; };
+
+/// What a person looks at: identifiers only, so that it survives a new trace of the same pixel. The one model beside
+/// Dataset that all views read and write. Not thread-safe: it belongs to the thread that shows it.
+///
+/// Rules: `paths` is sorted and without duplicates, of one or several pixels; the current path is one of `paths` or
+/// none; the current vertex lies on the current path or there is none.
+class Selection {
+  public:
+    struct State {
+        std::optional<Pixel> pixel;             ///< the one last clicked
+        std::vector<PathId> paths;              ///< selected paths
+        std::optional<PathId> currentPath;
+        std::optional<VertexId> vertex;
+        friend bool operator==(const State&, const State&) = default;
+    };
+    using Listener = std::function<void(std::uint32_t parts)>;
+    using ListenerId = std::uint64_t;
+
+    const State& state() const { return state_; }
+    bool isSelected(const PathId& path) const;
+    const std::optional<VertexId>& hovered() const { return hovered_; }  ///< under the cursor, in any view
+
+    /// Any of these tells each listener at most once, and not at all if nothing changed.
+    void setPixel(std::optional<Pixel> pixel);
+    void setPaths(std::vector<PathId> paths);        ///< current path: kept if among them, else the only one, else none
+    void togglePath(const PathId& path);
+    void setCurrentPath(const PathId& path);         ///< adds it to `paths` if it is not among them
+    void setVertex(const VertexId& vertex);          ///< its path becomes current
+    void clearVertex();
+    void clearPaths();
+    void set(State state);                           ///< made to obey the rules
+    void setHovered(std::optional<VertexId> vertex);
+
+    ListenerId listen(Listener listener);
+    void unlisten(ListenerId id);
+
+  private:
+    State state_;
+    std::optional<VertexId> hovered_;
+    std::vector<std::pair<ListenerId, Listener>> listeners_;
+    ListenerId nextListener_ = 1;
+};
+
+}  // namespace emca::client
