@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emca/client/connection.h"
@@ -50,7 +51,8 @@ class Dataset {
     /// Their paths in one set: what every path view shows. Empty if nothing is traced.
     const PathSet& paths() const { return paths_; }
 
-    // Each tells the listeners once (or once at the end of a Transaction).
+    // Each tells the listeners once (or once at the end of a Transaction). Indices without an image and null traces are
+    // ignored, and nobody is told.
     void setInfo(std::optional<ServerInfo> info);
     void setCamera(std::optional<Camera> camera);
     void setMeshes(std::shared_ptr<const std::vector<Mesh>> meshes);
@@ -60,10 +62,14 @@ class Dataset {
     /// The pixels of the current preview changed.
     void pixelsChanged();
     void addTrace(std::shared_ptr<const Trace> trace);        ///< becomes the only current one
+    /// Duplicates count once. Where two hold the same path, that of the later one is shown.
     void setCurrent(std::vector<std::shared_ptr<const Trace>> traces);
-    /// Forgets scene and traces, keeps images: another renderer was connected.
+    /// Forgets scene and traces, keeps info and images: another renderer was connected. The images lose their render
+    /// ids, which mean nothing to it; their colours can still be traced against.
     void clearScene();
 
+    /// Listeners may add and remove listeners (themselves too) and change the data while they are called; such a change
+    /// is told to all of them after the running round.
     ListenerId listen(Listener listener);
     void unlisten(ListenerId id);
 
@@ -91,6 +97,7 @@ class Dataset {
     ListenerId nextListener_ = 1;
     int transactions_ = 0;
     std::uint32_t pending_ = 0;
+    bool notifying_ = false;
 };
 
 }  // namespace emca::client

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -59,17 +60,24 @@ class Selection {
     void setVertex(const VertexId& vertex);          ///< its path becomes current
     void clearVertex();
     void clearPaths();
-    void set(State state);                           ///< made to obey the rules
+    /// Made to obey the rules: a current path that is not among `paths` is dropped, so is a vertex off the current path.
+    void set(State state);
     void setHovered(std::optional<VertexId> vertex);
 
+    /// Listeners may add and remove listeners (themselves too) and change the selection while they are called; such a
+    /// change is told to all of them after the running round.
     ListenerId listen(Listener listener);
     void unlisten(ListenerId id);
 
   private:
+    void assign(State state);
+    void changed(std::uint32_t parts);
     State state_;
     std::optional<VertexId> hovered_;
     std::vector<std::pair<ListenerId, Listener>> listeners_;
     ListenerId nextListener_ = 1;
+    std::uint32_t pending_ = 0;
+    bool notifying_ = false;
 };
 
 }  // namespace emca::client
