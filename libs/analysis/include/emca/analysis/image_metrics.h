@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "emca/analysis/statistics.h"
+#include "emca/analysis/tone_map.h"
+#include "emca/core/image.h"
+#include "emca/core/pixel.h"
+#include "emca/core/result.h"
+
+namespace emca::analysis {
+
+/// How an image differs from a reference, per pixel and channel. d = image - reference. The small constants keep dark
+/// pixels from dominating and are those of tev, so that numbers can be compared.
+enum class ImageMetric : std::uint8_t {
+    error = 0,             ///< d, signed
+    absoluteError = 1,     ///< |d|
+    squaredError = 2,      ///< d^2
+    relativeAbsoluteError = 3,  ///< |d| / (|reference| + 0.01)
+    relativeSquaredError = 4,   ///< d^2 / (reference^2 + 0.01)
+    symmetricAbsoluteError = 5, ///< SMAPE: 2 |d| / (|image| + |reference| + 0.02)
+};
+inline constexpr std::size_t kImageMetricCount = 6;
+std::string_view name(ImageMetric metric);  ///< "error", "absolute error", …
+std::optional<ImageMetric> imageMetricByName(std::string_view name);
+
+double apply(ImageMetric metric, double image, double reference);
+
+/// The metric of the first three channels (one, if either image is grey) as an image with channels R, G, B (or Y).
+/// Where both have the same infinity or both are NaN the difference is 0.
+/// Errors: invalidArgument (sizes differ; the sentence names both).
+Result<Image> differenceImage(const Image& image, const Image& reference, ImageMetric metric = ImageMetric::error);
+
+/// Mean of a metric over all finite entries of a difference image.
+double meanOf(const Image& difference);
+
+/// Counts and moments of one channel in a region.
+struct ChannelStatistics {
+    std::string channel;
+    Summary summary;
+    std::size_t negative = 0;
+};
+/// Per channel, and "luminance" last if there are at least three.
+/// \param rect  clipped to the image; empty: the whole image
+std::vector<ChannelStatistics> imageStatistics(const Image& image, PixelRect rect = {});
+
+/// Pixels with at least one NaN, infinite or negative channel, in reading order, at most `maximum`.
+enum class PixelFault : std::uint8_t { nan = 0, infinite = 1, negative = 2 };
+struct FaultyPixel { Pixel pixel; PixelFault fault = PixelFault::nan; };
+std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum = 1000);
+
+/// Values of a region as one series, for histograms and ranges.
+/// \param rect  clipped to the image; empty: the whole image
+std::vector<float> regionValues(const Image& image, ChannelChoice channel, PixelRect rect = {});
+
+}  // namespace emca::analysis
