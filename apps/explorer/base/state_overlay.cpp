@@ -6,6 +6,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <QVariant>
 #include <algorithm>
 
 #include "base/theme.h"

@@ -2,10 +2,12 @@
 
 #include <QApplication>
 #include <QFontDatabase>
+#include <QHash>
 #include <QPalette>
 #include <QStyleFactory>
 
 #include "base/style_sheet.h"
+#include "base/tabular_font.h"
 
 namespace emca::explorer {
 namespace {
@@ -25,6 +27,17 @@ QFont fontOf(const QString& family, double pixels, QFont::Weight weight = QFont:
     font.setWeight(weight);
     font.setHintingPreference(QFont::PreferNoHinting);
     return font;
+}
+
+/// A family with digits of equal width: a variant of the interface's own, else whatever has them.
+QString numberFamilyFor(const QString& family) {
+    // Registered once per process: themes come and go in tests.
+    static QHash<QString, QString> known;
+    if (const auto found = known.constFind(family); found != known.constEnd()) return *found;
+    QString numbers = tabularFamily(fontOf(family, kTextPixels));
+    if (numbers.isEmpty()) numbers = installed({"DejaVu Sans"}, QFontDatabase::FixedFont);
+    else if (numbers != family) tabularFamily(fontOf(family, kTextPixels, QFont::DemiBold));
+    return *known.insert(family, numbers);
 }
 
 QPalette paletteOf(const ThemeColors& c) {
@@ -120,10 +133,10 @@ ThemeColors lightColors() {
     c.success = "#1f7a45";
     c.path = "#3a3d42";
     c.currentSegment = "#0b8f4d";
-    c.emitter = "#d9a400";
+    c.emitter = "#dcae00";
     c.nextEventVisible = "#1f6fe0";
     c.nextEventOccluded = "#cf2a2a";
-    c.selected = "#e06a00";
+    c.selected = "#d95700";
     c.hover = "#7a5cff";
     c.halo = "#ffffff";
     c.axisX = "#c8393c";
@@ -141,7 +154,7 @@ ThemeColors lightColors() {
 Theme::Theme(ThemeKind kind, QObject* parent)
     : QObject(parent), kind_(kind), colors_(kind == ThemeKind::dark ? darkColors() : lightColors()),
       family_(installed({"Inter", "Inter V", "Noto Sans", "DejaVu Sans"}, QFontDatabase::GeneralFont)),
-      numberFamily_(family_) {}
+      numberFamily_(numberFamilyFor(family_)) {}
 
 QFont Theme::font() const { return fontOf(family_, kTextPixels); }
 QFont Theme::smallFont() const { return fontOf(family_, kSmallPixels); }
