@@ -4,6 +4,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "emca/render/diagnostics.h"
+
 namespace emca::render {
 
 namespace {
@@ -226,12 +228,7 @@ std::string PropertyReader::description() const {
 }
 
 void PropertyReader::add(SourceLocation where, std::string message) {
-    // A node with several references may be read several times.
-    const bool known = std::any_of(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& d) {
-        return d.where.line == where.line && d.message == message && d.where.file == where.file;
-    });
-    if (!known)
-        diagnostics_.push_back({std::move(where), std::move(message)});
+    addDiagnostic(diagnostics_, std::move(where), std::move(message));
 }
 
 }  // namespace emca::render
