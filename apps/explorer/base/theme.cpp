@@ -170,6 +170,12 @@ void Theme::setKind(ThemeKind kind) {
     emit themeChanged();
 }
 
+void Theme::setToneMap(const analysis::ToneMap& toneMap) {
+    if (toneMap == toneMap_) return;
+    toneMap_ = toneMap;
+    emit toneMapChanged();
+}
+
 void Theme::applyTo(QApplication& application) {
     application_ = &application;
     application.setStyle(QStyleFactory::create("Fusion"));

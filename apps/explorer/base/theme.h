@@ -4,6 +4,8 @@
 #include <QFont>
 #include <QObject>
 
+#include "emca/analysis/tone_map.h"
+
 class QApplication;
 
 namespace emca::explorer {
@@ -79,13 +81,20 @@ class Theme : public QObject {
     /// Sets palette, font and style sheet of the whole application; again after each change of kind.
     void applyTo(QApplication& application);
 
+    /// How radiance becomes a colour of the screen, in the image and in every swatch: the image view sets it.
+    const analysis::ToneMap& toneMap() const { return toneMap_; }
+    void setToneMap(const analysis::ToneMap& toneMap);
+
   signals:
     /// colors() has changed; repaint.
     void themeChanged();
+    /// toneMap() has changed; repaint swatches.
+    void toneMapChanged();
 
   private:
     ThemeKind kind_;
     ThemeColors colors_;
+    analysis::ToneMap toneMap_;
     QString family_, numberFamily_;
     QApplication* application_ = nullptr;
 };
