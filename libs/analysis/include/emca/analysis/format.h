@@ -14,8 +14,8 @@
 namespace emca::analysis {
 
 /// Four significant digits: "1.000", "0.01235", "1234", "1.234e+05", "1.234e-05"; "0", "-0"; "NaN", "Infinity",
-/// "-Infinity". Fixed from 1e-4 up to 9999.5, scientific beyond: at most 10 characters with the sign.
-/// The last digit is rounded to nearest, exact halves of the decimal expansion to even.
+/// "-Infinity". Fixed from 1e-4 up to 9999.5, scientific beyond: at most 10 characters with the sign (11 if the exponent has
+/// three digits). The last digit is rounded to nearest, exact halves of the decimal expansion to even.
 std::string formatNumber(double value);
 /// In full: counts and indices have no rounding.
 std::string formatInteger(std::int64_t value);

@@ -94,9 +94,9 @@ struct Tick {
     bool major = true;
 };
 /// Ticks at round numbers inside the range, ascending: linear at 1, 2 or 5 times a power of ten; logarithmic at powers
-/// of ten with minor ticks between (over less than one decade, as linear). Labels of one axis share their notation and
-/// are all different.
-/// \param majorCount  how many labels there is room for: at least 2; there are never more, on valid ranges at least 2
+/// of ten with minor ticks between, over a short range also at 2 and 5. Labels of one axis share their notation and are
+/// all different.
+/// \param majorCount  how many labels there is room for (2 to 100): there are never more, and from 5 on at least 2
 std::vector<Tick> ticks(const ValueRange& range, int majorCount = 6);
 /// Ticks of an axis of whole numbers (sample index, depth): never a fraction.
 std::vector<Tick> integerTicks(const ValueRange& range, int majorCount = 6);

@@ -43,9 +43,7 @@ class ToneMapper {
     const ToneMap& settings() const { return settings_; }
 
     /// One channel in [0, 255]: exposure, transfer, clamped, rounded to nearest. NaN is 0.
-    std::uint8_t channel(float linear) const {
-        return encode(linear * scale_);
-    }
+    std::uint8_t channel(float linear) const;
     /// A colour without marks of clipping, e.g. for swatches. NaN and infinite colours are marked if settings say so.
     Color8 color(Color linear) const;
     /// True if a swatch or pixel cannot show how bright it is: a channel above 1 after exposure.

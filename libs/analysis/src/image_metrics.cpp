@@ -1,0 +1,115 @@
+#include "emca/analysis/image_metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace emca::analysis {
+namespace {
+
+constexpr std::array<std::string_view, kImageMetricCount> kNames = {
+    "error", "absolute error", "squared error", "relative absolute error", "relative squared error",
+    "symmetric absolute error"};
+
+PixelRect clipped(const Image& image, PixelRect rect) {
+    if (rect.empty()) return {0, 0, image.width(), image.height()};
+    return {rect.x0, rect.y0, std::min(rect.x1, image.width()), std::min(rect.y1, image.height())};
+}
+
+/// Calls visit(pixel) for the pixels of a region in reading order.
+template <typename Visit>
+void forEachPixel(const PixelRect& rect, const Visit& visit) {
+    for (std::uint32_t y = rect.y0; y < rect.y1; ++y)
+        for (std::uint32_t x = rect.x0; x < rect.x1; ++x) visit(Pixel{x, y});
+}
+
+bool isSame(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+std::string_view name(ImageMetric metric) {
+    const auto i = static_cast<std::size_t>(metric);
+    return i < kNames.size() ? kNames[i] : "unknown";
+}
+
+std::optional<ImageMetric> imageMetricByName(std::string_view name) {
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    if (found == kNames.end()) return std::nullopt;
+    return static_cast<ImageMetric>(found - kNames.begin());
+}
+
+double apply(ImageMetric metric, double image, double reference) {
+    const double d = image - reference;
+    switch (metric) {
+        case ImageMetric::error: return d;
+        case ImageMetric::absoluteError: return std::abs(d);
+        case ImageMetric::squaredError: return d * d;
+        case ImageMetric::relativeAbsoluteError: return std::abs(d) / (std::abs(reference) + 0.01);
+        case ImageMetric::relativeSquaredError: return d * d / (reference * reference + 0.01);
+        case ImageMetric::symmetricAbsoluteError:
+            return 2 * std::abs(d) / (std::abs(image) + std::abs(reference) + 0.02);
+    }
+    return d;
+}
+
+Result<Image> differenceImage(const Image& image, const Image& reference, ImageMetric metric) {
+    if (image.width() != reference.width() || image.height() != reference.height())
+        return Error{ErrorCode::invalidArgument,
+                     "The image has " + std::to_string(image.width()) + " x " + std::to_string(image.height()) +
+                         " pixels and its reference " + std::to_string(reference.width()) + " x " +
+                         std::to_string(reference.height()) + "; only images of the same size can be compared."};
+    const bool grey = image.channelCount() < 3 || reference.channelCount() < 3;
+    const std::vector<std::string> channels = grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+    Image difference(image.width(), image.height(), channels);
+    const auto at = [metric](float a, float b) {
+        if (isSame(a, b)) return 0.f;
+        return static_cast<float>(apply(metric, static_cast<double>(a), static_cast<double>(b)));
+    };
+    forEachPixel(clipped(image, {}), [&](Pixel p) {
+        if (grey) {
+            *difference.at(p) = at(scalar(image, p, {}), scalar(reference, p, {}));
+        } else {
+            const Color a = image.color(p), b = reference.color(p);
+            difference.setColor(p, {at(a.r, b.r), at(a.g, b.g), at(a.b, b.b)});
+        }
+    });
+    return difference;
+}
+
+double meanOf(const Image& difference) { return summarize(std::span<const float>(difference.data(), difference.size())).mean; }
+
+std::vector<float> regionValues(const Image& image, ChannelChoice channel, PixelRect rect) {
+    const PixelRect region = clipped(image, rect);
+    std::vector<float> values;
+    values.reserve(region.count());
+    forEachPixel(region, [&](Pixel p) { values.push_back(scalar(image, p, channel)); });
+    return values;
+}
+
+std::vector<ChannelStatistics> imageStatistics(const Image& image, PixelRect rect) {
+    std::vector<ChannelStatistics> result;
+    const auto add = [&](const std::string& channel, int index) {
+        const std::vector<float> values = regionValues(image, {index}, rect);
+        const auto negative = std::count_if(values.begin(), values.end(), [](float v) { return v < 0; });
+        result.push_back({channel, summarize(std::span<const float>(values)), static_cast<std::size_t>(negative)});
+    };
+    for (std::uint32_t c = 0; c < image.channelCount(); ++c) add(image.channels()[c], static_cast<int>(c));
+    if (image.channelCount() >= 3) add("luminance", ChannelChoice::kLuminance);
+    return result;
+}
+
+std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum) {
+    std::vector<FaultyPixel> result;
+    const std::uint32_t channels = image.channelCount();
+    forEachPixel(clipped(image, {}), [&](Pixel p) {
+        if (result.size() >= maximum) return;
+        const std::span<const float> values(image.at(p), channels);
+        const auto any = [&](auto test) { return std::any_of(values.begin(), values.end(), test); };
+        if (any([](float v) { return std::isnan(v); })) result.push_back({p, PixelFault::nan});
+        else if (any([](float v) { return std::isinf(v); })) result.push_back({p, PixelFault::infinite});
+        else if (any([](float v) { return v < 0; })) result.push_back({p, PixelFault::negative});
+    });
+    return result;
+}
+
+}  // namespace emca::analysis
