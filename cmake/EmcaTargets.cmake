@@ -5,7 +5,7 @@
 add_library(emca_flags INTERFACE)
 target_compile_options(emca_flags INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-    -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wdouble-promotion -Wformat=2
+    -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wdouble-promotion -Wformat=2 -Wno-missing-field-initializers
     # Replay promises equal bits, so a compiler may not fuse a*b+c in one place and not in another.
     -ffp-contract=off>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -61,6 +61,9 @@ endfunction()
 # Adds a folder if all it needs was found; otherwise leaves it out and remembers why for one clear line.
 function(emca_add_part folder)
   cmake_parse_arguments(arg "" "" "NEEDS" ${ARGN})
+  if(EMCA_ONLY_PARTS AND NOT folder IN_LIST EMCA_ONLY_PARTS)
+    return()
+  endif()
   if(NOT EXISTS "${PROJECT_SOURCE_DIR}/${folder}/CMakeLists.txt")
     return()
   endif()
