@@ -19,6 +19,7 @@ struct SurfaceInteraction {
     Vec3f wo;                ///< local to `shading`: unit, back along the ray (towards the camera)
     Vec2f uv;                ///< texture coordinates
     float distance = 0;      ///< along the ray
+    float positionError = 0; ///< bound on how far rounding put `position` off the surface: offsetOrigin() needs it
     std::int32_t mesh = -1;  ///< index into Scene::meshes(), as the explorer sees it
     std::int32_t face = -1;  ///< triangle of that mesh (analytic shapes: of their tessellation)
     const Shape* shape = nullptr;

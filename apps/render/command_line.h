@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "emca/core/result.h"
+
+namespace emca {
+
+/// Where to serve.
+struct ServeAddress {
+    std::string host = "127.0.0.1";
+    std::uint16_t port = 0;  ///< 0: the system picks one
+    friend bool operator==(const ServeAddress&, const ServeAddress&) = default;
+};
+
+/// "PORT" or "HOST:PORT"; an IPv6 host stands in brackets. Errors: invalidArgument.
+Result<ServeAddress> parseServeAddress(const std::string& text);
+
+/// "WIDTHxHEIGHT". Errors: invalidArgument.
+struct ImageSize {
+    std::uint32_t width = 0, height = 0;
+};
+Result<ImageSize> parseImageSize(const std::string& text);
+
+/// What was typed, checked as far as that needs no scene. Absent: as the scene says.
+struct CommandLine {
+    std::filesystem::path scene;
+    std::optional<std::filesystem::path> output;
+    std::optional<std::uint32_t> samplesPerPixel;
+    ImageSize size;  ///< 0: as the scene says
+    std::optional<std::string> integrator, sampler;
+    std::optional<std::uint64_t> seed;
+    int threads = 0;  ///< 0: one per processor
+    std::map<std::string, std::string> defines;
+    std::optional<ServeAddress> serve;
+};
+
+/// Exit codes, as DESIGN.md and docs say.
+enum ExitCode : int { kExitOk = 0, kExitUsage = 2, kExitInput = 3, kExitConnection = 4, kExitServer = 5 };
+
+/// Either a command line, or the code to exit with after everything was said (help, version, usage errors).
+struct ParsedCommandLine {
+    std::optional<CommandLine> commandLine;
+    int exitCode = kExitOk;
+};
+ParsedCommandLine parseCommandLine(int argc, const char* const* argv);
+
+}  // namespace emca

@@ -1,0 +1,112 @@
+// emca-render: the reference renderer as a command and as a server.
+
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <thread>
+
+#include "command_line.h"
+#include "emca/imageio/imageio.h"
+#include "emca/render/scene_loader.h"
+#include "emca/server/server.h"
+#include "progress_bar.h"
+#include "renderer_adapter.h"
+
+namespace emca {
+
+namespace {
+
+int fail(const Error& error, int exitCode) {
+    std::cerr << "error: " << error.message << std::endl;
+    return exitCode;
+}
+
+void printDiagnostics(const render::Scene& scene) {
+    for (const render::Diagnostic& diagnostic : scene.diagnostics()) {
+        std::cerr << "warning: " << diagnostic.where.text() << ": " << diagnostic.message << '\n';
+    }
+}
+
+/// The signals that end the program, blocked in every thread, so that one of ours waits for them.
+sigset_t blockEndingSignals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    return signals;
+}
+
+int renderToFile(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
+                 const CommandLine& line) {
+    const render::ImageRenderer renderer(scene, line.threads);
+    Result<RenderedImage> image = [&] {
+        ProgressBar bar(scene->name());
+        render::RenderCallbacks callbacks;
+        callbacks.progress = [&](double fraction) { bar.update(fraction); };
+        return renderer.renderImage(options, callbacks);
+    }();
+    if (!image) return fail(image.error(), kExitServer);
+    const std::filesystem::path output = line.output.value_or(scene->name() + ".exr");
+    if (auto written = imageio::write(output, *image); !written) return fail(written.error(), kExitInput);
+    return kExitOk;
+}
+
+int serve(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
+          const CommandLine& line) {
+    const sigset_t signals = blockEndingSignals();
+    RendererAdapter adapter(scene, options, line.integrator.value_or("path"), line.threads);
+    ServerOptions serverOptions;
+    serverOptions.host = line.serve->host;
+    serverOptions.port = line.serve->port;
+    serverOptions.maximumSamplesPerPixel = render::kMaximumSamplesPerPixel;
+    serverOptions.log = [](const std::string& remark) { std::cerr << remark << std::endl; };
+    auto server = Server::start(adapter, serverOptions);
+    if (!server) return fail(server.error(), kExitConnection);
+    std::cout << "listening on " << (*server)->address() << std::endl;
+
+    std::thread waiter([&] {
+        int signal = 0;
+        sigwait(&signals, &signal);
+        (*server)->stop();
+    });
+    (*server)->wait();
+    // Ended by a client: the waiter still waits for its signal.
+    kill(getpid(), SIGTERM);
+    waiter.join();
+    return kExitOk;
+}
+
+int run(const CommandLine& line) {
+    render::SceneOptions sceneOptions;
+    sceneOptions.defines = line.defines;
+    sceneOptions.width = line.size.width;
+    sceneOptions.height = line.size.height;
+    const auto scene = render::loadScene(line.scene, sceneOptions);
+    if (!scene) return fail(scene.error(), kExitInput);
+    printDiagnostics(**scene);
+
+    render::RenderOptions options = render::sceneOptions(**scene);
+    if (auto named = applyNames(line.integrator.value_or(""), line.sampler.value_or(""), (*scene)->integrator(), options); !named) {
+        return fail(named.error(), kExitUsage);
+    }
+    if (line.samplesPerPixel) options.samplesPerPixel = *line.samplesPerPixel;
+    if (line.seed) options.seed = *line.seed;
+    if (!line.serve) return renderToFile(*scene, options, line);
+    if (line.output) {
+        if (const int code = renderToFile(*scene, options, line); code != kExitOk) return code;
+    }
+    return serve(*scene, options, line);
+}
+
+}  // namespace
+
+}  // namespace emca
+
+int main(int argc, char** argv) {
+    const auto parsed = emca::parseCommandLine(argc, argv);
+    return parsed.commandLine ? emca::run(*parsed.commandLine) : parsed.exitCode;
+}

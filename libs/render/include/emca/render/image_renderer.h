@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "emca/core/image.h"
+#include "emca/core/pixel.h"
+#include "emca/core/result.h"
+#include "emca/render/path_integrator.h"
+#include "emca/render/scene.h"
+
+namespace emca::render {
+
+/// What a pixel depends on besides the scene.
+struct RenderOptions {
+    std::uint32_t samplesPerPixel = 1;  ///< 1 to kMaximumSamplesPerPixel
+    SamplerKind sampler = SamplerKind::independent;
+    std::uint64_t seed = 0;
+    IntegratorSettings integrator;
+    friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
+};
+
+inline constexpr std::uint32_t kMaximumSamplesPerPixel = 1u << 20;
+
+/// The options that the scene file asks for.
+RenderOptions sceneOptions(const Scene& scene);
+
+/// How a running render talks to whoever asked for it. Called from the rendering threads; any may be empty.
+struct RenderCallbacks {
+    std::function<bool()> cancelled;
+    std::function<void(double fraction)> progress;  ///< done, in [0, 1]; after every tile
+    std::function<void(PixelRect tile, const std::vector<Color>& colors)> tileDone;  ///< row by row
+};
+
+/// Renders images and single pixels. The value of a pixel depends on the scene, the options and the pixel alone: never
+/// on threads, tiles or other pixels. May be used from several threads at once.
+class ImageRenderer {
+  public:
+    /// \param threads  how many render an image; 0: one per processor
+    explicit ImageRenderer(std::shared_ptr<const Scene> scene, int threads = 0);
+
+    /// Errors: invalidArgument (samples per pixel 0), tooLarge (beyond kMaximumSamplesPerPixel), cancelled.
+    Result<RenderedImage> renderImage(const RenderOptions& options, const RenderCallbacks& callbacks = {}) const;
+
+    /// The same pixel again, bit by bit, in the calling thread; if that is inside a RecordScope, its paths are recorded.
+    /// Errors: as renderImage, and pixelOutOfRange.
+    Result<Color> renderPixel(Pixel pixel, const RenderOptions& options, const RenderCallbacks& callbacks = {}) const;
+
+    const Scene& scene() const { return *scene_; }
+    int threads() const { return threads_; }
+
+  private:
+    /// A pixel as the film holds it.
+    struct PixelEstimate {
+        Color mean;
+        Color variance;  ///< unbiased, of the samples
+        bool complete = true;
+    };
+    PixelEstimate estimatePixel(Pixel pixel, const RenderOptions& options, const RenderCallbacks& callbacks) const;
+    Color samplePixel(Pixel pixel, std::uint32_t index, Sampler& sampler, const PathIntegrator& integrator,
+                      emca::PathRecorder& emca) const;
+    /// \return false if cancelled
+    bool renderTile(PixelRect tile, const RenderOptions& options, const RenderCallbacks& callbacks,
+                    RenderedImage& image) const;
+
+    std::shared_ptr<const Scene> scene_;
+    int threads_;
+};
+
+}  // namespace emca::render

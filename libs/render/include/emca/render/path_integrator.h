@@ -1,0 +1,45 @@
+#pragma once
+
+#include "emca/core/color.h"
+#include "emca/recorder/recorder.h"
+#include "emca/render/integrator_settings.h"
+#include "emca/render/ray.h"
+#include "emca/render/sampler.h"
+#include "emca/render/scene.h"
+
+namespace emca::render {
+
+/// Unidirectional path tracing (Kajiya 1986) with next-event estimation, multiple importance sampling and Russian
+/// roulette, and EMCA's calls where Algorithm 1 of the paper has them. The one compiled function renders and replays.
+class PathIntegrator {
+  public:
+    /// \param scene  must outlive the integrator
+    PathIntegrator(const Scene& scene, const IntegratorSettings& settings) : scene_(scene), settings_(settings) {}
+
+    /// Radiance that arrives along the ray. The sampler's dimensions from kFirstDimension on are used.
+    Color radiance(Ray ray, Sampler& sampler, emca::PathRecorder& emca) const;
+
+    /// The dimensions before this one belong to the camera.
+    static constexpr std::uint32_t kFirstDimension = 2;
+
+  private:
+    /// How the path came to where it is, for the MIS weight of light that it meets there.
+    struct Arrival {
+        Vec3f from;        ///< last vertex that scattered; the camera at first
+        float pdf = 0;     ///< BSDF density of the direction, per steradian
+        bool direct = true;  ///< straight from the camera
+        bool delta = true;   ///< light sampling could not have made this direction
+    };
+    Color emittedLight(const SurfaceInteraction& at, const Ray& ray, const Arrival& arrival, Color throughput,
+                       emca::PathRecorder& emca) const;
+    Color environmentLight(const Ray& ray, const Arrival& arrival, Color throughput, emca::PathRecorder& emca) const;
+    Color sampledLight(const SurfaceInteraction& at, Color throughput, Sampler& sampler, emca::PathRecorder& emca) const;
+    /// MIS weight of light met by BSDF sampling where light sampling has this density.
+    float hitWeight(const Arrival& arrival, float lightPdf) const;
+    bool violatesStrictNormals(const SurfaceInteraction& at, Vec3f world, Vec3f local) const;
+
+    const Scene& scene_;
+    IntegratorSettings settings_;
+};
+
+}  // namespace emca::render

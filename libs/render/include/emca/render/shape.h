@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "emca/core/mesh.h"
+#include "emca/render/interaction.h"
+#include "emca/render/ray.h"
+
+// Embree's handles, so that this header needs none of Embree's.
+struct RTCDeviceTy;
+struct RTCGeometryTy;
+
+namespace emca::render {
+
+/// Where a ray met a shape, as the ray tracer says.
+struct RayHit {
+    float distance = 0;             ///< along the ray
+    std::uint32_t geometry = 0;     ///< index of the shape
+    std::uint32_t primitive = 0;    ///< triangle of a mesh; 0 for analytic shapes
+    float u = 0, v = 0;             ///< barycentric coordinates of a triangle's second and third vertex
+};
+
+/// Point on a shape that a light sampler chose.
+struct ShapeSample {
+    Vec3f position;             ///< world space
+    Vec3f normal;               ///< geometric, unit, towards the front
+    Vec2f uv;
+    float pdf = 0;              ///< per steradian as seen from the place that asked
+};
+
+/// Surface with one material, in world space. Immutable once it is part of a scene; safe from all threads.
+class Shape {
+  public:
+    virtual ~Shape() = default;
+
+    /// Fills in position, normals, frame, uv, face and positionError; leaves the rest alone.
+    virtual void interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& at) const = 0;
+    virtual float area() const = 0;  ///< square scene units
+    /// Chooses a point to be lit by, as seen from `from`. Nothing if all of it is seen edge-on or has no area.
+    virtual std::optional<ShapeSample> sample(Vec3f from, Vec2f u) const = 0;
+    /// Density with which sample() chooses the point that a ray from `from` along `direction` met, per steradian.
+    /// \param distance  from `from` to the point
+    virtual float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const = 0;
+
+    /// Geometry for the ray tracer; the caller attaches and releases it. The shape must outlive it and stay in place.
+    virtual RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const = 0;
+    /// Triangles for the explorer; `face` of interact() counts these. World space.
+    virtual emca::Mesh displayMesh() const = 0;
+    virtual std::uint64_t triangleCount() const = 0;  ///< of displayMesh()
+
+    std::string name;                          ///< id in the scene file, else the plugin's type
+    std::shared_ptr<const Bsdf> bsdf;          ///< never null in a scene
+    const Emitter* emitter = nullptr;          ///< area light on this shape; owned by the scene
+    bool masked = false;                       ///< the BSDF's opacity may be below 1
+};
+
+/// Relative rounding error of a hit point: 2^-18 of the largest coordinate involved, 64 units in the last place.
+inline constexpr float kRelativePositionError = 0x1p-18f;
+
+}  // namespace emca::render

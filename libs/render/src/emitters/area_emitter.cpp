@@ -1,0 +1,33 @@
+#include "emitters/area_emitter.h"
+
+#include "emca/render/sampling_functions.h"
+
+namespace emca::render {
+
+AreaEmitter::AreaEmitter(const Shape& shape, std::shared_ptr<const Texture> radiance)
+    : shape_(shape), radiance_(std::move(radiance)), mean_(radiance_->mean()), constant_(radiance_->isConstant()) {}
+
+std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
+    const auto point = shape_.sample(from, u);
+    if (!point) return std::nullopt;
+    const Vec3f toPoint = point->position - from;
+    const float distance = length(toPoint);
+    if (!(distance > 0.f)) return std::nullopt;
+    const Vec3f direction = toPoint / distance;
+    if (dot(point->normal, direction) >= 0.f) return std::nullopt;  // seen from behind
+    return EmitterSample{point->position, direction, distance, constant_ ? mean_ : radiance_->eval(point->uv),
+                         point->pdf};
+}
+
+float AreaEmitter::power() const { return kPi * shape_.area() * luminance(mean_); }
+
+Color AreaEmitter::emitted(const SurfaceInteraction& at, Vec3f direction) const {
+    if (dot(at.geometricNormal, direction) <= 0.f) return Color(0.f);
+    return constant_ ? mean_ : radiance_->eval(at.uv);
+}
+
+float AreaEmitter::pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const {
+    return shape_.pdf(from, direction, distance, at);
+}
+
+}  // namespace emca::render

@@ -1,0 +1,115 @@
+#include "shapes/mesh_shape.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "embree_compat.h"
+#include "emca/render/sampling_functions.h"
+
+namespace emca::render {
+
+namespace {
+
+float largestCoordinate(Vec3f p) { return std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))); }
+
+double triangleArea(Vec3f a, Vec3f b, Vec3f c) {
+    const auto wide = [](Vec3f v) { return Vec3d{double(v.x), double(v.y), double(v.z)}; };
+    return 0.5 * length(cross(wide(b) - wide(a), wide(c) - wide(a)));
+}
+
+/// Texture coordinates of a mesh without any: the barycentric ones, as Mitsuba gives.
+constexpr Vec2f kCornerUvs[3] = {{0.f, 0.f}, {1.f, 0.f}, {0.f, 1.f}};
+
+}  // namespace
+
+MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+    // Embree reads 16 bytes at every vertex, also at the last one.
+    mesh_.positions.reserve(mesh_.positions.size() + 1);
+    double area = 0;
+    for (const Triangle& t : mesh_.triangles) {
+        area += triangleArea(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]);
+    }
+    area_ = static_cast<float>(area);
+}
+
+void MeshShape::prepareSampling() {
+    std::vector<float> areas;
+    areas.reserve(mesh_.triangles.size());
+    for (const Triangle& t : mesh_.triangles) {
+        areas.push_back(static_cast<float>(
+            triangleArea(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]])));
+    }
+    triangles_ = Distribution1D(areas);
+}
+
+void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) const {
+    const Triangle& t = mesh_.triangles[hit.primitive];
+    const Vec3f a = mesh_.positions[t[0]], b = mesh_.positions[t[1]], c = mesh_.positions[t[2]];
+    const float w = 1.f - hit.u - hit.v;
+    // From the vertices, not along the ray: the error then does not grow with the distance to the ray's origin.
+    at.position = a * w + b * hit.u + c * hit.v;
+    at.geometricNormal = normalize(cross(b - a, c - a));
+    at.positionError =
+        kRelativePositionError * std::max(largestCoordinate(a), std::max(largestCoordinate(b), largestCoordinate(c)));
+    at.face = static_cast<std::int32_t>(hit.primitive);
+
+    Vec3f normal = at.geometricNormal;
+    if (!mesh_.normals.empty()) {
+        const Vec3f smooth = mesh_.normals[t[0]] * w + mesh_.normals[t[1]] * hit.u + mesh_.normals[t[2]] * hit.v;
+        if (dot(smooth, smooth) > 0.f) normal = normalize(smooth);
+    }
+    at.shading = Frame::fromNormal(normal);
+    const bool mapped = !mesh_.uvs.empty();
+    const Vec2f uvA = mapped ? mesh_.uvs[t[0]] : kCornerUvs[0];
+    const Vec2f uvB = mapped ? mesh_.uvs[t[1]] : kCornerUvs[1];
+    const Vec2f uvC = mapped ? mesh_.uvs[t[2]] : kCornerUvs[2];
+    at.uv = uvA * w + uvB * hit.u + uvC * hit.v;
+}
+
+std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
+    assert(triangles_.size() > 0);
+    // The triangle takes what it needs of u.x and the point gets the remainder: using u.x twice as it is would correlate
+    // triangle and point (the bug of the paper's Figure 9).
+    const Distribution1D::Choice chosen = triangles_.sample(u.x);
+    const Triangle& t = mesh_.triangles[chosen.index];
+    const Vec3f a = mesh_.positions[t[0]], b = mesh_.positions[t[1]], c = mesh_.positions[t[2]];
+    const Vec2f bary = squareToUniformTriangle({chosen.remainder, u.y});
+    const float w = 1.f - bary.x - bary.y;
+
+    ShapeSample sample;
+    sample.position = a * w + b * bary.x + c * bary.y;
+    sample.normal = normalize(cross(b - a, c - a));
+    const bool mapped = !mesh_.uvs.empty();
+    sample.uv = mapped ? mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y : bary;
+    const Vec3f toPoint = sample.position - from;
+    const float squared = dot(toPoint, toPoint);
+    const float cosine = std::abs(dot(sample.normal, toPoint)) / std::sqrt(squared);
+    if (!(squared > 0.f) || !(cosine > 0.f)) return std::nullopt;
+    sample.pdf = squared / (cosine * area_);
+    return sample;
+}
+
+float MeshShape::pdf(Vec3f, Vec3f direction, float distance, const SurfaceInteraction& at) const {
+    const float cosine = std::abs(dot(at.geometricNormal, direction));
+    return cosine > 0.f ? square(distance) / (cosine * area_) : 0.f;
+}
+
+RTCGeometryTy* MeshShape::makeGeometry(RTCDeviceTy* device) const {
+    static_assert(sizeof(Vec3f) == 12 && sizeof(Triangle) == 12);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh_.positions.data(), 0,
+                               sizeof(Vec3f), mesh_.positions.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh_.triangles.data(), 0,
+                               sizeof(Triangle), mesh_.triangles.size());
+    return geometry;
+}
+
+emca::Mesh MeshShape::displayMesh() const {
+    emca::Mesh mesh;
+    mesh.positions = mesh_.positions;
+    mesh.triangles = mesh_.triangles;
+    return mesh;
+}
+
+}  // namespace emca::render

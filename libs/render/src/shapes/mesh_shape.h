@@ -1,0 +1,31 @@
+#pragma once
+
+#include "emca/render/distribution.h"
+#include "emca/render/shape.h"
+#include "emca/render/triangle_mesh.h"
+
+namespace emca::render {
+
+/// Triangles, with interpolated normals where the mesh has some.
+class MeshShape final : public Shape {
+  public:
+    explicit MeshShape(TriangleMesh mesh);
+
+    void interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& at) const override;
+    float area() const override { return area_; }
+    std::optional<ShapeSample> sample(Vec3f from, Vec2f u) const override;
+    float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
+    RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
+    emca::Mesh displayMesh() const override;
+    std::uint64_t triangleCount() const override { return mesh_.triangles.size(); }
+
+    /// sample() needs to know the areas; only lights pay for that. Before the shape joins a scene.
+    void prepareSampling();
+
+  private:
+    TriangleMesh mesh_;
+    Distribution1D triangles_;  ///< by area; empty before prepareSampling()
+    float area_ = 0;
+};
+
+}  // namespace emca::render
