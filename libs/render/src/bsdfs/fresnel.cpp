@@ -49,7 +49,7 @@ Color fresnelConductor(float cosIncident, Color eta, Color k) {
 }
 
 float fresnelDiffuseReflectance(float eta) {
-    const double criticalCos = eta < 1.f ? std::sqrt(1.0 - static_cast<double>(eta) * eta) : 0.0;
+    const double criticalCos = eta < 1.f ? std::sqrt(1.0 - static_cast<double>(square(eta))) : 0.0;
     // Below the critical cosine everything is reflected: int_0^c 2 cos dcos = c^2.
     double sum = 0;
     constexpr int kSteps = 2048;

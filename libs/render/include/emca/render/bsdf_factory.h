@@ -13,6 +13,8 @@
 
 namespace emca::render {
 
+class TextureImage;
+
 /// What the factories of one scene share. Nodes that are referenced several times become one object, and an image file
 /// is loaded once. One thread at a time.
 struct FactoryContext {
@@ -20,7 +22,7 @@ struct FactoryContext {
     std::span<const std::filesystem::path> searchFolders;     ///< SceneDocument::searchFolders; outlives the context
     std::map<const SceneNode*, std::shared_ptr<const Bsdf>> bsdfs = {};        ///< by node, which must stay alive
     std::map<const SceneNode*, std::shared_ptr<const Texture>> textures = {};  ///< by node, which must stay alive
-    std::map<std::string, std::shared_ptr<const Texture>> bitmaps = {};        ///< by file and options
+    std::map<std::string, std::shared_ptr<const TextureImage>> images = {};    ///< by file and how it is read
 };
 
 /// The material that a node of kind "bsdf" describes, with all textures and nested materials. Never null: a type or
