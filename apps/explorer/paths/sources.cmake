@@ -1,0 +1,20 @@
+set(EMCA_PATHS_SOURCES
+  paths/path_entries.cpp
+  paths/path_entries.h
+  paths/path_tree.cpp
+  paths/path_tree.h
+  paths/path_tree_delegate.cpp
+  paths/path_tree_delegate.h
+  paths/path_tree_model.cpp
+  paths/path_tree_model.h
+  paths/path_tree_view.cpp
+  paths/path_tree_view.h
+  paths/swatch.cpp
+  paths/swatch.h
+  paths/value_cells.cpp
+  paths/value_cells.h
+)
+set(EMCA_PATHS_TESTS
+  paths/path_tree_model_test.cpp
+  paths/path_tree_test.cpp
+)

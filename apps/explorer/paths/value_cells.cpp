@@ -1,0 +1,26 @@
+#include "paths/value_cells.h"
+
+#include <QFontMetrics>
+#include <QPainter>
+
+#include "base/theme.h"
+#include "emca/analysis/format.h"
+
+namespace emca::explorer {
+
+int numberCellWidth(const QFont& font) { return QFontMetrics(font).horizontalAdvance(QStringLiteral("-0.0001234")) + 2; }
+
+void paintNumbers(QPainter& painter, const QRect& rect, const QStringList& numbers, const QColor& color,
+                  const Theme& theme) {
+    const QFont font = theme.numberFont();
+    painter.setFont(font);
+    const int cell = numberCellWidth(font);
+    for (int i = 0; i < numbers.size(); ++i) {
+        const bool word = analysis::isNonFiniteWord(numbers[i].toStdString());
+        painter.setPen(word ? theme.colors().warning : color);
+        painter.drawText(QRect(rect.left() + i * cell, rect.top(), cell - 8, rect.height()),
+                         Qt::AlignRight | Qt::AlignVCenter, numbers[i]);
+    }
+}
+
+}  // namespace emca::explorer
