@@ -24,11 +24,11 @@ double component(const Value& value, std::size_t i) {
             } else if constexpr (std::is_same_v<T, Vec3i> || std::is_same_v<T, Vec3f> || std::is_same_v<T, Vec3d>) {
                 return i < 3 ? static_cast<double>(v[i]) : kNone;
             } else if constexpr (std::is_same_v<T, Color>) {
-                return i == 0 ? v.r : i == 1 ? v.g : i == 2 ? v.b : kNone;
+                return i == 0 ? double(v.r) : i == 1 ? double(v.g) : i == 2 ? double(v.b) : kNone;
             } else if constexpr (std::is_same_v<T, ColorA>) {
-                return i == 0 ? v.r : i == 1 ? v.g : i == 2 ? v.b : i == 3 ? v.a : kNone;
+                return i == 0 ? double(v.r) : i == 1 ? double(v.g) : i == 2 ? double(v.b) : i == 3 ? double(v.a) : kNone;
             } else if constexpr (std::is_same_v<T, std::vector<float>>) {
-                return i < v.size() ? v[i] : kNone;
+                return i < v.size() ? double(v[i]) : kNone;
             } else {
                 return kNone;
             }

@@ -92,7 +92,7 @@ class Assembler {
     IndexRange localVertices(Place p) const {
         const auto& c = *cursors_[p.cursor];
         const bool last = p.path + 1 == c.paths_.size();
-        return {c.paths_[p.path].firstVertex, last ? static_cast<Index>(c.vertices_.size()) : c.paths_[p.path + 1].firstVertex};
+        return {c.paths_[p.path].firstVertex, last ? c.vertices_.size() : c.paths_[p.path + 1].firstVertex};
     }
 
     void orderPaths() {

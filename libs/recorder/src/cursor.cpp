@@ -39,6 +39,15 @@ constexpr std::size_t kLongestText = 64 * 1024;
 }  // namespace
 
 std::uint32_t Interner::add(std::string_view text, Budget& budget) {
+    Recent& recent = recent_[(reinterpret_cast<std::uintptr_t>(text.data()) >> 3) % std::size(recent_)];
+    // The memory may hold another text by now, so the contents decide.
+    if (recent.data == text.data() && recent.size == text.size() && strings_[recent.index] == text) return recent.index;
+    const std::uint32_t index = find(text, budget);
+    if (index != kNoString && text.size() <= kLongestText) recent = {text.data(), text.size(), index};
+    return index;
+}
+
+std::uint32_t Interner::find(std::string_view text, Budget& budget) {
     text = text.substr(0, kLongestText);
     const std::uint64_t hash = std::hash<std::string_view>{}(text);
     if (strings_.size() * 2 >= slots_.size()) rehash(std::max<std::size_t>(64, slots_.size() * 2));
@@ -93,17 +102,19 @@ void Cursor::setPathIndex(std::int64_t sample, std::int32_t part) {
         endPath();
     }
     c.vertex_ = CursorImpl::kNone;
-    c.starved_ = !c.charge(sizeof(PathRow));
-    if (c.starved_) return;
+    const Index path = c.paths_.size();
+    PathRow* place = c.paths_.append(c.pool_);
+    c.starved_ = !place;
+    if (!place) return void(++c.stats_.droppedByBudget);
     PathRow row;
     row.pixel = c.pixel_;
     row.hasPixel = c.hasPixel_;
     row.byHandle = c.byHandle_;
     row.sample = sample;
     row.part = part;
-    row.firstVertex = static_cast<Index>(c.vertices_.size());
-    c.path_ = static_cast<Index>(c.paths_.size());
-    c.paths_.push_back(row);
+    row.firstVertex = c.vertices_.size();
+    c.path_ = path;
+    *place = row;
     c.inPath_ = true;
     c.anyVertex_[0] = c.anyVertex_[1] = false;
     if (c.shared_.options.observer) c.shared_.options.observer->beginPath(row.pixel, sample);
@@ -137,9 +148,8 @@ void CursorImpl::forgetPath() {
             column->floats.resize(std::size_t(last.first) + last.size);
         }
     }
-    shared_.budget.giveBack((vertices_.size() - row.firstVertex) * sizeof(VertexRow) + sizeof(PathRow));
-    vertices_.resize(row.firstVertex);
-    paths_.pop_back();
+    vertices_.shrink(row.firstVertex);
+    paths_.shrink(path_);
 }
 
 void Cursor::setPathOrigin(Vec3f origin) {
@@ -187,10 +197,12 @@ void CursorImpl::finishVertex() {
 
 void CursorImpl::startVertex(std::int32_t depth, Subpath subpath) {
     finishVertex();
-    starved_ = !charge(sizeof(VertexRow));
-    if (starved_) return;
-    vertex_ = static_cast<Index>(vertices_.size());
-    vertices_.push_back({depth, subpath == Subpath::light ? std::uint8_t(VertexFlag::light) : std::uint8_t(0), {}});
+    const Index vertex = vertices_.size();
+    VertexRow* place = vertices_.append(pool_);
+    starved_ = !place;
+    if (!place) return void(++stats_.droppedByBudget);
+    vertex_ = vertex;
+    *place = {depth, subpath == Subpath::light ? std::uint8_t(VertexFlag::light) : std::uint8_t(0), {}};
     const auto s = static_cast<std::size_t>(subpath);
     deepest_[s] = anyVertex_[s] ? std::max(deepest_[s], depth) : depth;
     anyVertex_[s] = true;
@@ -203,7 +215,7 @@ void Cursor::setDepthIndex(std::int32_t depth, Subpath subpath) {
     const auto s = static_cast<std::size_t>(subpath);
     if (!c.anyVertex_[s] || depth > c.deepest_[s]) return c.startVertex(depth, subpath);
     const std::uint8_t light = subpath == Subpath::light ? VertexFlag::light : 0;
-    for (Index v = static_cast<Index>(c.vertices_.size()); v-- > c.paths_[c.path_].firstVertex;) {
+    for (Index v = c.vertices_.size(); v-- > c.paths_[c.path_].firstVertex;) {
         if (c.vertices_[v].depth != depth || (c.vertices_[v].flags & VertexFlag::light) != light) continue;
         if (v == c.vertex_) return;
         c.finishVertex();
@@ -284,7 +296,19 @@ void Cursor::addContribution(Color value, std::string_view technique, float misW
 
 // User data
 
+// Renderers record the same keys in the same order at every vertex, so that the column after the last one is mostly
+// the right one.
 KeyedColumn& CursorImpl::column(const Key& key, Scope scope, ValueType type, std::uint32_t bytes) {
+    KeyedColumn* guess = lastColumn_ ? lastColumn_->next : nullptr;
+    if (!guess || guess->hash != key.hash() || guess->type != type || guess->scope != scope) [[unlikely]] {
+        guess = &findColumn(key, scope, type, bytes);
+        if (lastColumn_) lastColumn_->next = guess;
+    }
+    lastColumn_ = guess;
+    return *guess;
+}
+
+KeyedColumn& CursorImpl::findColumn(const Key& key, Scope scope, ValueType type, std::uint32_t bytes) {
     const std::uint64_t hash = slotHash(key.hash(), scope, type);
     std::size_t mask = table_.size() - 1;
     // The high bits: multiplication mixes upwards.

@@ -75,6 +75,7 @@ struct KeyedColumn {
     PageColumn values;                          ///< spectra: position and length in `floats`
     std::vector<float> floats;                  ///< spectra only
     std::vector<std::source_location> locations;///< only where asked for
+    KeyedColumn* next = nullptr;                ///< the one that was used after this the last time
 };
 
 struct SpectrumSpan { std::uint32_t first, size; };
@@ -87,7 +88,15 @@ class Interner {
     const std::vector<std::string>& strings() const { return strings_; }
 
   private:
+    std::uint32_t find(std::string_view text, Budget& budget);
     void rehash(std::size_t slots);
+    /// Texts that came lately, by where they lie: a renderer says the same literals and names again and again.
+    struct Recent {
+        const char* data = nullptr;
+        std::size_t size = 0;
+        std::uint32_t index = 0;
+    };
+    Recent recent_[16];
     std::vector<std::string> strings_;
     std::vector<std::uint32_t> slots_;  ///< open addressing; kNoString marks a free slot
     std::vector<std::uint64_t> hashes_;
@@ -117,6 +126,7 @@ class CursorImpl final : public Cursor {
     template <typename T>
     void append(const Key& key, Scope scope, Index owner, Index base, const T& value);
     KeyedColumn& column(const Key& key, Scope scope, ValueType type, std::uint32_t bytes);
+    KeyedColumn& findColumn(const Key& key, Scope scope, ValueType type, std::uint32_t bytes);
     bool charge(std::size_t bytes);
     VertexRow& vertex() { return vertices_[vertex_]; }
 
@@ -133,14 +143,14 @@ class CursorImpl final : public Cursor {
     std::int32_t deepest_[2] = {};   ///< per subpath, of the current path
     bool anyVertex_[2] = {};
 
-    // Rows stay in vectors: they are few bytes and indexed at random when depths are revisited.
-    std::vector<PathRow> paths_;
-    std::vector<VertexRow> vertices_;
+    PageRows<PathRow> paths_;
+    PageRows<VertexRow> vertices_;
     PageColumn nextEvents_{sizeof(NextEvent)}, estimates_{sizeof(Color)}, emissions_{sizeof(Color)},
         surfaces_{sizeof(SurfaceValue)}, events_{sizeof(EventValue)}, contributions_{sizeof(Contribution)},
         splats_{sizeof(Splat)};
     std::vector<std::unique_ptr<KeyedColumn>> columns_;
     std::vector<std::uint32_t> table_;  ///< open addressing over columns_
+    KeyedColumn* lastColumn_ = nullptr;
     Interner strings_;
 };
 

@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <vector>
 
 #include "emca/core/path_set.h"
+#include "slab.h"
 
 namespace emca::detail {
 
@@ -32,7 +31,7 @@ class Budget {
 };
 
 /// Memory in pages, for one thread. A page is small, so that a column wastes little; pages are cut from slabs, so that
-/// few allocations happen.
+/// the system is asked seldom.
 class PagePool {
   public:
     static constexpr std::size_t kPageBytes = 4096;
@@ -43,8 +42,8 @@ class PagePool {
         if (!budget_.take(kPageBytes)) return nullptr;
         if (next_ == end_) {
             // Small at first: most recordings are one pixel with few samples.
-            const std::size_t bytes = slabs_.size() < 2 ? 16 * kPageBytes : 128 * kPageBytes;
-            slabs_.emplace_back(static_cast<std::byte*>(::operator new(bytes, std::align_val_t(64))));
+            const std::size_t bytes = (slabs_.size() < 2 ? 16 : 64) * kPageBytes;
+            slabs_.push_back(allocateSlab(bytes));
             next_ = slabs_.back().get();
             end_ = next_ + bytes;
         }
@@ -54,13 +53,35 @@ class PagePool {
     }
 
   private:
-    struct Free {
-        void operator()(std::byte* slab) const { ::operator delete(slab, std::align_val_t(64)); }
-    };
     Budget& budget_;
-    std::vector<std::unique_ptr<std::byte, Free>> slabs_;
+    std::vector<Slab> slabs_;
     std::byte* next_ = nullptr;
     std::byte* end_ = nullptr;
+};
+
+/// Rows that are read and written at any index, in pages. T is trivially copyable.
+template <typename T>
+class PageRows {
+  public:
+    T& operator[](Index i) { return reinterpret_cast<T*>(pages_[i / kPerPage])[i % kPerPage]; }
+    const T& operator[](Index i) const { return reinterpret_cast<const T*>(pages_[i / kPerPage])[i % kPerPage]; }
+    Index size() const { return size_; }
+    /// The new row, not initialised, or nullptr if the budget is used up.
+    T* append(PagePool& pool) {
+        if (size_ == pages_.size() * kPerPage) [[unlikely]] {
+            std::byte* page = pool.take();
+            if (!page) return nullptr;
+            pages_.push_back(page);
+        }
+        return &(*this)[size_++];
+    }
+    /// Forgets the rows from `size` on; their pages stay for those to come.
+    void shrink(Index size) { size_ = size; }
+
+  private:
+    static constexpr Index kPerPage = static_cast<Index>(PagePool::kPageBytes / sizeof(T));
+    std::vector<std::byte*> pages_;
+    Index size_ = 0;
 };
 
 /// Append-only values of one size with their owners. An owner costs two bytes: its distance from the page's first.
@@ -68,85 +89,101 @@ class PagePool {
 class PageColumn {
   public:
     explicit PageColumn(std::uint32_t valueBytes) : valueBytes_(valueBytes) {
-        capacity_ = static_cast<std::uint32_t>((PagePool::kPageBytes - sizeof(Page) - kValueAlign) / (valueBytes + sizeof(std::uint16_t)));
+        capacity_ = static_cast<std::uint32_t>((PagePool::kPageBytes - sizeof(Page)) / (valueBytes + sizeof(std::uint16_t)));
+        count_ = capacity_;
     }
 
     /// Room for one value, or nullptr if the budget is used up. `base`: the smallest owner that may still come.
     std::byte* append(Index owner, Index base, PagePool& pool) {
-        Page* page = last_;
-        if (!page || page->count == capacity_ || owner - page->base > 0xffffu) [[unlikely]] {
-            page = grow(owner - base > 0xffffu ? owner : base, pool);
-            if (!page) return nullptr;
+        if (count_ == capacity_ || owner - base_ > 0xffffu) [[unlikely]] {
+            if (!grow(owner - base > 0xffffu ? owner : base, pool)) return nullptr;
         }
-        const std::uint32_t i = page->count++;
-        owners(page)[i] = static_cast<std::uint16_t>(owner - page->base);
-        ++size_;
-        return values(page) + std::size_t(i) * valueBytes_;
+        const std::uint32_t i = count_++;
+        owners_[i] = static_cast<std::uint16_t>(owner - base_);
+        return values_ + std::size_t(i) * valueBytes_;
     }
 
-    std::size_t size() const { return size_; }
+    std::size_t size() const { return before_ + (pages_.empty() ? 0 : count_); }
     /// The last value, or nullptr if there is none.
     const std::byte* last() const {
-        return size_ == 0 ? nullptr : values(last_) + std::size_t(last_->count - 1) * valueBytes_;
+        return size() == 0 ? nullptr : values_ + std::size_t(count_ - 1) * valueBytes_;
     }
-    std::uint32_t valueBytes() const { return valueBytes_; }
 
     /// Forgets values at the end whose owner is `first` or later: an abandoned path.
     void dropFrom(Index first) {
         while (!pages_.empty()) {
-            Page* page = pages_.back();
-            while (page->count > 0 && page->base + owners(page)[page->count - 1] >= first) {
-                --page->count;
-                --size_;
+            while (count_ > 0 && base_ + owners_[count_ - 1] >= first) --count_;
+            if (count_ > 0) return;
+            if (pages_.size() == 1) {
+                base_ = first;
+                return;
             }
-            // An emptied page stays for what comes next, unless its base lies behind.
-            if (page->count > 0 || pages_.size() == 1) {
-                if (page->count == 0) page->base = first;
-                break;
-            }
-            spare_.push_back(page);
+            spare_.push_back(pages_.back());
             pages_.pop_back();
+            const auto* page = reinterpret_cast<const Page*>(pages_.back());
+            before_ -= page->count;
+            enter(pages_.back(), page->base, page->count);
         }
-        last_ = pages_.empty() ? nullptr : pages_.back();
     }
 
     /// Calls visit(owner, value) in call order.
     template <typename Visit>
     void forEach(Visit&& visit) const {
-        for (Page* page : pages_)
-            for (std::uint32_t i = 0; i < page->count; ++i)
-                visit(page->base + owners(page)[i], static_cast<const std::byte*>(values(page) + std::size_t(i) * valueBytes_));
+        for (std::size_t p = 0; p < pages_.size(); ++p) {
+            const bool open = p + 1 == pages_.size();
+            const auto* page = reinterpret_cast<const Page*>(pages_[p]);
+            const Index base = open ? base_ : page->base;
+            const std::uint32_t count = open ? count_ : page->count;
+            const std::uint16_t* owners = ownersOf(pages_[p]);
+            const std::byte* values = valuesOf(pages_[p]);
+            for (std::uint32_t i = 0; i < count; ++i) visit(base + owners[i], values + std::size_t(i) * valueBytes_);
+        }
     }
 
   private:
-    static constexpr std::size_t kValueAlign = 8;
+    /// Head of a page that is full. The open page's numbers are in the column itself, where appending finds them.
     struct Page {
         Index base;
         std::uint32_t count;
     };
-    std::uint16_t* owners(Page* page) const {
-        return reinterpret_cast<std::uint16_t*>(reinterpret_cast<std::byte*>(page) + PagePool::kPageBytes) - capacity_;
+    std::uint16_t* ownersOf(std::byte* page) const {
+        return reinterpret_cast<std::uint16_t*>(page + PagePool::kPageBytes) - capacity_;
     }
-    static std::byte* values(Page* page) { return reinterpret_cast<std::byte*>(page + 1); }
+    static std::byte* valuesOf(std::byte* page) { return page + sizeof(Page); }
 
-    Page* grow(Index base, PagePool& pool) {
-        std::byte* memory;
+    void enter(std::byte* page, Index base, std::uint32_t count) {
+        base_ = base;
+        count_ = count;
+        owners_ = ownersOf(page);
+        values_ = valuesOf(page);
+    }
+
+    bool grow(Index base, PagePool& pool) {
+        std::byte* page;
         if (!spare_.empty()) {
-            memory = reinterpret_cast<std::byte*>(spare_.back());
+            page = spare_.back();
             spare_.pop_back();
         } else {
-            memory = pool.take();
+            page = pool.take();
         }
-        if (!memory) return nullptr;
-        last_ = new (memory) Page{base, 0};
-        pages_.push_back(last_);
-        return last_;
+        if (!page) return false;
+        if (!pages_.empty()) {
+            *reinterpret_cast<Page*>(pages_.back()) = {base_, count_};
+            before_ += count_;
+        }
+        pages_.push_back(page);
+        enter(page, base, 0);
+        return true;
     }
 
     std::uint32_t valueBytes_, capacity_;
-    Page* last_ = nullptr;
-    std::size_t size_ = 0;
-    std::vector<Page*> pages_, spare_;
+    // The open page. A column without one counts as full.
+    Index base_ = 0;
+    std::uint32_t count_;
+    std::uint16_t* owners_ = nullptr;
+    std::byte* values_ = nullptr;
+    std::size_t before_ = 0;  ///< values in the full pages
+    std::vector<std::byte*> pages_, spare_;
 };
 
 }  // namespace emca::detail
