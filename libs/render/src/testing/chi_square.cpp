@@ -111,22 +111,22 @@ double integrate(const Rectangle& domain, const std::function<double(Vec2d)>& f)
     return refine(domain, gauss4x4(domain, f), 1e-7, 0, f);
 }
 
-double integrateDirections(double cosMin, double cosMax, const std::function<double(Vec3f)>& f) {
+double integrateDirections(double thetaMin, double thetaMax, const std::function<double(Vec3f)>& f) {
     double sum = 0;
     constexpr int kSteps = 16;  // narrow lobes are found only in small enough rectangles
     for (int i = 0; i < kSteps; ++i) {
         for (int j = 0; j < 2 * kSteps; ++j) {
-            const double step = (cosMax - cosMin) / kSteps, turn = std::numbers::pi / kSteps;
-            sum += integrate({cosMin + i * step, cosMin + (i + 1) * step, j * turn, (j + 1) * turn},
-                             [&f](Vec2d p) { return f(directionOf(p.x, p.y)); });
+            const double step = (thetaMax - thetaMin) / kSteps, turn = std::numbers::pi / kSteps;
+            sum += integrate({thetaMin + i * step, thetaMin + (i + 1) * step, j * turn, (j + 1) * turn},
+                             [&f](Vec2d p) { return f(directionOf(p.x, p.y)) * std::sin(p.x); });
         }
     }
     return sum;
 }
 
-Vec3f directionOf(double cosTheta, double phi) {
-    const double sinTheta = std::sqrt(std::max(0.0, 1.0 - cosTheta * cosTheta));
-    return {static_cast<float>(sinTheta * std::cos(phi)), static_cast<float>(sinTheta * std::sin(phi)), static_cast<float>(cosTheta)};
+Vec3f directionOf(double theta, double phi) {
+    return {static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::sin(theta) * std::sin(phi)),
+            static_cast<float>(std::cos(theta))};
 }
 
 ChiSquareResult testPoints(const Rectangle& domain, const std::function<std::optional<Vec2d>(TestRandom&)>& sample,
@@ -152,8 +152,8 @@ ChiSquareResult testPoints(const Rectangle& domain, const std::function<std::opt
 
 ChiSquareResult testDirections(const std::function<std::optional<Vec3f>(TestRandom&)>& sample,
                                const std::function<double(Vec3f)>& pdf, const ChiSquareOptions& options) {
-    // d(cos theta) d(phi) is the solid angle, so that a density per steradian is one over this rectangle.
-    const Rectangle sphere{-1, 1, 0, 2 * std::numbers::pi};
+    // Over theta rather than its cosine, as lobes along the axis would hide in a sliver of the first bin.
+    const Rectangle sphere{0, std::numbers::pi, 0, 2 * std::numbers::pi};
     return testPoints(
         sphere,
         [&sample](TestRandom& random) -> std::optional<Vec2d> {
@@ -161,9 +161,10 @@ ChiSquareResult testDirections(const std::function<std::optional<Vec3f>(TestRand
             if (!direction) return std::nullopt;
             double phi = std::atan2(static_cast<double>(direction->y), static_cast<double>(direction->x));
             if (phi < 0) phi += 2 * std::numbers::pi;
-            return Vec2d{std::clamp(static_cast<double>(direction->z), -1.0, 1.0), phi};
+            const double across = std::hypot(static_cast<double>(direction->x), static_cast<double>(direction->y));
+            return Vec2d{std::atan2(across, static_cast<double>(direction->z)), phi};
         },
-        [&pdf](Vec2d p) { return pdf(directionOf(p.x, p.y)); }, options);
+        [&pdf](Vec2d p) { return pdf(directionOf(p.x, p.y)) * std::sin(p.x); }, options);
 }
 
 }  // namespace emca::render::testing

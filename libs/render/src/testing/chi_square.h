@@ -30,7 +30,7 @@ class TestRandom {
 
 struct ChiSquareOptions {
     int samples = 100'000;
-    int xBins = 16;             ///< directions: bins of cos theta; even, so that the horizon is between two bins
+    int xBins = 16;             ///< directions: bins of theta; even, so that the horizon is between two bins
     int yBins = 32;             ///< directions: bins of phi
     std::uint64_t seed = 1;
     double significance = 0.01; ///< probability that any of `tests` correct samplers is rejected
@@ -65,10 +65,10 @@ ChiSquareResult testPoints(const Rectangle& domain, const std::function<std::opt
 /// Integral of f over a rectangle by adaptive Gauss-Legendre quadrature; error around 1e-4 of the value or 1e-7.
 double integrate(const Rectangle& domain, const std::function<double(Vec2d)>& f);
 
-/// Integral of f over the directions of the sphere whose cosines to z are in [cosMin, cosMax].
-double integrateDirections(double cosMin, double cosMax, const std::function<double(Vec3f)>& f);
+/// Integral of f over the directions of the sphere whose angles to z are in [thetaMin, thetaMax].
+double integrateDirections(double thetaMin, double thetaMax, const std::function<double(Vec3f)>& f);
 
-/// Direction of polar cosine and azimuth, computed in double so that it is unit to the last bit of float.
-Vec3f directionOf(double cosTheta, double phi);
+/// Direction of polar angle and azimuth in radians.
+Vec3f directionOf(double theta, double phi);
 
 }  // namespace emca::render::testing
