@@ -138,7 +138,7 @@ void SceneReader::readObject(const XmlSource& source, pugi::xml_node xml, const 
                              const NodePointer& into, int depth) {
     const std::string role = toSnakeCase(element.get("name"));
     if (element.get("type").empty()) {
-        element.find("id");
+        element.dismiss();
         return report(element.where(), "<" + element.tag() + "> has no attribute \"type\" and is ignored");
     }
     const auto node = makeNode(source, xml, element, depth);
@@ -162,7 +162,7 @@ void SceneReader::readValueProperty(const SceneElement& element, SceneNode& into
     auto value = readValue(element, spectrumUse(into), folder);
     if (value)
         return setProperty(element, into, std::move(*value));
-    element.find("name");
+    element.dismiss();
     report(element.where(), value.error().message + "; it is ignored");
 }
 
@@ -178,11 +178,11 @@ void SceneReader::readTransform(const XmlSource& source, pugi::xml_node xml, con
             continue;
         }
         const auto map = readTransformStep(step);
-        reportUnknownAttributes(step);
         if (!map) {
             report(step.where(), map.error().message + "; this step of the transform is ignored");
             continue;
         }
+        reportUnknownAttributes(step);
         transform = *map * transform;  // what is written first is applied first
     }
     setProperty(element, into, transform);

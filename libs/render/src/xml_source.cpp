@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "file_bytes.h"
+#include "text_numbers.h"
 
 namespace emca::render {
 
@@ -41,7 +42,11 @@ Result<std::unique_ptr<XmlSource>> XmlSource::parse(std::string text, const std:
     return source;
 }
 
-SourceLocation XmlSource::locate(pugi::xml_node node) const { return {path_.string(), lineAt(node.offset_debug())}; }
+SourceLocation XmlSource::locate(pugi::xml_node node) const {
+    const std::string_view text = node.type() == pugi::node_element ? "" : node.value();
+    const auto blanks = std::find_if_not(text.begin(), text.end(), isBlank) - text.begin();
+    return {path_.string(), lineAt(node.offset_debug() + blanks)};
+}
 
 int XmlSource::lineAt(std::ptrdiff_t offset) const {
     // Text that was not UTF-8 is parsed in a converted copy: its offsets may lie beyond the lines of the file.
@@ -62,6 +67,11 @@ const std::string* SceneElement::find(std::string_view name) const {
 std::string SceneElement::get(std::string_view name) const {
     const std::string* value = find(name);
     return value ? *value : std::string();
+}
+
+void SceneElement::dismiss() const {
+    for (const auto& attribute : attributes_)
+        attribute.used = true;
 }
 
 std::vector<std::string> SceneElement::unused() const {

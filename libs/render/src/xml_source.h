@@ -26,7 +26,7 @@ class XmlSource {
 
     pugi::xml_node root() const { return document_.document_element(); }
     const std::filesystem::path& path() const { return path_; }
-    /// Where an element begins.
+    /// Where an element, or the first word of a text, begins.
     SourceLocation locate(pugi::xml_node node) const;
 
   private:
@@ -52,6 +52,8 @@ class SceneElement {
     std::string get(std::string_view name) const;  ///< empty if there is none
     /// Names of attributes that nobody asked for.
     std::vector<std::string> unused() const;
+    /// For an element that is left out as a whole: its attributes are of no more interest.
+    void dismiss() const;
 
   private:
     struct Attribute { std::string name, value; mutable bool used = false; };
