@@ -1,0 +1,19 @@
+# Installs the libraries that others link, so that find_package(emca COMPONENTS server client) works.
+include(CMakePackageConfigHelpers)
+
+set(EMCA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/emca)
+set(installed)
+foreach(part core recorder protocol server client analysis imageio)
+  if(TARGET emca_${part})
+    list(APPEND installed emca_${part})
+    install(DIRECTORY libs/${part}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
+endforeach()
+install(TARGETS ${installed} EXPORT emcaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT emcaTargets NAMESPACE emca:: DESTINATION ${EMCA_PACKAGE_DIR})
+configure_package_config_file(cmake/emcaConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/emcaConfig.cmake
+  INSTALL_DESTINATION ${EMCA_PACKAGE_DIR})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/emcaConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/emcaConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/emcaConfigVersion.cmake
+  DESTINATION ${EMCA_PACKAGE_DIR})
+install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/emca/scenes)
