@@ -29,7 +29,7 @@ TEST(ColorMap, PublishedEndsAndMiddles) {
     EXPECT_EQ(ColorMap::get(ColorMapId::inferno).map(1), (Color8{0xfc, 0xff, 0xa4}));
     EXPECT_EQ(ColorMap::get(ColorMapId::magma).map(1), (Color8{0xfc, 0xfd, 0xbf}));
     EXPECT_EQ(ColorMap::get(ColorMapId::turbo).map(0), (Color8{0x30, 0x12, 0x3b}));
-    EXPECT_EQ(ColorMap::get(ColorMapId::cividis).map(0), (Color8{0x00, 0x22, 0x4d}));
+    EXPECT_EQ(ColorMap::get(ColorMapId::cividis).map(0), (Color8{0x00, 0x22, 0x4e}));
     EXPECT_EQ(ColorMap::get(ColorMapId::grey).map(0.5), (Color8{128, 128, 128}));
 }
 

@@ -9,22 +9,25 @@
 namespace emca::analysis {
 namespace {
 
-/// Median of the finite neighbours of a pixel; 0 if there are none.
-float neighbourMedian(const std::vector<float>& values, std::uint32_t width, std::uint32_t height, Pixel pixel, int radius,
-                      std::vector<float>& scratch) {
-    scratch.clear();
+/// Finite values around a pixel, without its own.
+void collectNeighbours(const std::vector<float>& values, std::uint32_t width, std::uint32_t height, Pixel pixel, int radius,
+                       std::vector<float>& neighbours) {
+    neighbours.clear();
     const auto w = static_cast<int>(width), h = static_cast<int>(height);
     const auto px = static_cast<int>(pixel.x), py = static_cast<int>(pixel.y);
     for (int y = std::max(py - radius, 0); y <= std::min(py + radius, h - 1); ++y)
         for (int x = std::max(px - radius, 0); x <= std::min(px + radius, w - 1); ++x) {
             const float v = values[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-            if ((x != px || y != py) && std::isfinite(v)) scratch.push_back(v);
+            if ((x != px || y != py) && std::isfinite(v)) neighbours.push_back(v);
         }
-    if (scratch.empty()) return 0;
-    const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-    std::nth_element(scratch.begin(), middle, scratch.end());
-    if (scratch.size() % 2 == 1) return *middle;
-    return 0.5f * (*middle + *std::max_element(scratch.begin(), middle));
+}
+
+float median(std::vector<float>& values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return 0.5f * (*middle + *std::max_element(values.begin(), middle));
 }
 
 /// Mean luminance without the brightest hundredth, which is where fireflies are.
@@ -47,16 +50,20 @@ std::vector<Firefly> findFireflies(const Image& image, const FireflyOptions& opt
     // Never 0: in an all-black image a single lit pixel has a finite ratio.
     const float floor = std::max(options.floor * ordinaryMean(values), 1e-6f);
     const int radius = std::max(options.radius, 1);
-    std::vector<float> scratch;
+    std::vector<float> neighbours;
     for (std::uint32_t y = 0; y < image.height(); ++y)
         for (std::uint32_t x = 0; x < image.width(); ++x) {
             const float value = values[std::size_t(y) * image.width() + x];
             // The median of many is at least 0 in a valid image, so dim pixels need no look at their neighbours.
             if (std::isfinite(value) && value < options.ratio * floor) continue;
-            const float neighbours = neighbourMedian(values, image.width(), image.height(), {x, y}, radius, scratch);
-            const float ratio = std::isfinite(value) ? value / (std::max(neighbours, 0.f) + floor)
+            collectNeighbours(values, image.width(), image.height(), {x, y}, radius, neighbours);
+            const float middle = median(neighbours);
+            const float ratio = std::isfinite(value) ? value / (std::max(middle, 0.f) + floor)
                                                      : std::numeric_limits<float>::infinity();
-            if (ratio >= options.ratio) found.push_back({{x, y}, value, neighbours, ratio});
+            if (ratio < options.ratio) continue;
+            const auto company = std::count_if(neighbours.begin(), neighbours.end(), [=](float v) { return v > 0.25f * value; });
+            const float most = std::max(options.company * static_cast<float>(neighbours.size()), 1.f);
+            if (static_cast<float>(company) <= most) found.push_back({{x, y}, value, middle, ratio});
         }
     std::stable_sort(found.begin(), found.end(), [](const Firefly& a, const Firefly& b) { return a.ratio > b.ratio; });
     if (found.size() > options.maximum) found.resize(options.maximum);

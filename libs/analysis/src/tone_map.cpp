@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMantissaBits = 9;                 // fine enough that a cell holds at most one step of the 8-bit curve
 constexpr int kShift = 23 - kMantissaBits;
-constexpr int kSmallestExponent = -52;           // below 2^-52 every curve in use rounds to 0
+constexpr int kSmallestExponent = -73;           // below 2^-73 every curve up to gamma 8 rounds to 0
 constexpr std::uint32_t kFirstCell = static_cast<std::uint32_t>(127 + kSmallestExponent) << kMantissaBits;
 constexpr std::uint32_t kCells = static_cast<std::uint32_t>(-kSmallestExponent) << kMantissaBits;
 

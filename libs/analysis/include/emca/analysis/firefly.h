@@ -20,6 +20,9 @@ struct Firefly {
 struct FireflyOptions {
     int radius = 2;               ///< 2: the 24 neighbours of a 5x5 window, fewer at the border
     float ratio = 10;             ///< smallest ratio reported
+    /// At most this share of the neighbours (but one) may be a quarter as bright as the pixel: so that the corner of a
+    /// lamp, whose neighbours are mostly dark, is no firefly.
+    float company = 0.125f;
     std::size_t maximum = 100;    ///< at most so many, the most striking ones
     /// Added to the neighbours' median, as a share of the mean luminance that has fireflies cut away: so that a dim
     /// spot in a black corner is not the image's first firefly.
