@@ -1,0 +1,122 @@
+// Who may know whom, as docs/architecture.md says.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Per folder: the parts of ours that it may include, and the prefixes of others' headers.
+struct Rule {
+    std::set<std::string> parts;
+    std::vector<std::string> others;
+};
+
+const std::map<std::string, Rule>& rules() {
+    static const std::map<std::string, Rule> table{
+        {"libs/core", {{"core"}, {}}},
+        {"libs/recorder", {{"core", "recorder"}, {"sys/mman.h"}}},
+        {"libs/query", {{"core", "query"}, {"re2/"}}},
+        {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
+        {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio"}}},
+        {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h"}}},
+        {"libs/imageio", {{"core", "imageio"}, {"OpenImageIO/"}}},
+        {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
+        {"libs/render", {{"core", "recorder", "imageio", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h", "OpenImageIO/"}}},
+        {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "spdlog/", "unistd.h", "sys/", "csignal"}}},
+        {"apps/cli", {{"core", "client", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
+        {"apps/explorer", {{"core", "client", "analysis", "imageio"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
+        {"examples", {{"core", "recorder", "server", "client"}, {}}},
+    };
+    return table;
+}
+
+bool isTest(const fs::path& file) {
+    const std::string path = file.generic_string();
+    return path.find("_test.") != std::string::npos || path.find("/testing/") != std::string::npos ||
+           path.find("_for_tests") != std::string::npos || path.find("test_main") != std::string::npos ||
+           path.find("_bench.") != std::string::npos;
+}
+
+bool isSource(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }
+
+std::vector<std::pair<bool, std::string>> includesOf(const fs::path& file) {
+    static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    std::vector<std::pair<bool, std::string>> includes;
+    std::ifstream in(file);
+    std::smatch match;
+    for (std::string line; std::getline(in, line);)
+        if (std::regex_search(line, match, pattern)) includes.emplace_back(match[1] == "<", match[2]);
+    return includes;
+}
+
+bool isStandard(const std::string& header) {
+    static const std::regex standard(R"(^[a-z_0-9]+$)");
+    return std::regex_match(header, standard);
+}
+
+/// Why a file may not include a header; empty if it may.
+std::string complaint(const Rule& rule, bool angled, const std::string& header) {
+    if (header.rfind("emca/", 0) == 0) {
+        const std::string part = header.substr(5, header.find('/', 5) - 5);
+        return rule.parts.contains(part) ? "" : "may not know " + part;
+    }
+    if (!angled) return header.rfind("vtk", 0) == 0 ? "uses VTK" : "";  // its own folder
+    if (isStandard(header)) return "";
+    for (const std::string& prefix : rule.others)
+        if (header.rfind(prefix, 0) == 0) return "";
+    return "may not use <" + header + ">";
+}
+
+TEST(Architecture, IncludesFollowTheArrows) {
+    const fs::path root = EMCA_SOURCE_DIR;
+    int files = 0;
+    for (const auto& [folder, rule] : rules()) {
+        if (!fs::exists(root / folder)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (!isSource(entry.path()) || isTest(entry.path())) continue;
+            ++files;
+            for (const auto& [angled, header] : includesOf(entry.path())) {
+                const std::string why = complaint(rule, angled, header);
+                EXPECT_TRUE(why.empty()) << fs::relative(entry.path(), root) << " " << why;
+            }
+        }
+    }
+    EXPECT_GT(files, 20);
+}
+
+TEST(Architecture, ARendererThatLinksTheServerSeesTheStandardLibraryOnly) {
+    const fs::path root = EMCA_SOURCE_DIR;
+    for (const char* folder : {"libs/core/include", "libs/recorder/include", "libs/server/include", "libs/client/include"})
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (!isSource(entry.path())) continue;
+            for (const auto& [angled, header] : includesOf(entry.path()))
+                EXPECT_TRUE(angled ? isStandard(header) : header.rfind("emca/", 0) == 0) << fs::relative(entry.path(), root) << ": " << header;
+        }
+}
+
+TEST(Architecture, VtkStaysInItsFolder) {
+    const fs::path root = EMCA_SOURCE_DIR;
+    const fs::path explorer = root / "apps/explorer";
+    if (!fs::exists(explorer)) GTEST_SKIP() << "The explorer is not there.";
+    for (const auto& entry : fs::recursive_directory_iterator(explorer)) {
+        if (!isSource(entry.path()) || entry.path().generic_string().find("/explorer/scene/") != std::string::npos) continue;
+        for (const auto& [angled, header] : includesOf(entry.path()))
+            EXPECT_FALSE(header.rfind("vtk", 0) == 0 || header.rfind("QVTK", 0) == 0) << fs::relative(entry.path(), root) << ": " << header;
+    }
+}
+
+TEST(Architecture, ADoubtfulIncludeIsFound) {
+    EXPECT_NE(complaint(rules().at("libs/core"), false, "emca/server/server.h"), "");
+    EXPECT_NE(complaint(rules().at("libs/client"), false, "emca/server/server.h"), "");
+    EXPECT_NE(complaint(rules().at("libs/analysis"), true, "QWidget"), "");
+    EXPECT_EQ(complaint(rules().at("libs/server"), true, "vector"), "");
+}
+
+}  // namespace
