@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "emca/core/result.h"
+#include "emca/imageio/imageio.h"
+
+namespace emca::imageio {
+
+inline Error unreadable(const std::filesystem::path& file, const std::string& why) {
+    return {ErrorCode::fileUnreadable, "The image " + file.string() + " cannot be read: " + why + "."};
+}
+
+/// Whether a header may be believed enough to get memory for it.
+/// Errors: fileUnreadable (nothing, or far more than `fileBytes` can hold), tooLarge.
+Result<void> checkSize(const std::filesystem::path& file, std::int64_t width, std::int64_t height, std::int64_t channels,
+                       std::uintmax_t fileBytes);
+
+}  // namespace emca::imageio
