@@ -25,7 +25,8 @@ struct NamedMetal {
 
 // Measured n and k over the visible range (E. Palik, "Handbook of Optical Constants of Solids", 1985, and the sources
 // collected there), each integrated against the CIE 1931 matching functions under equal energy and taken to linear
-// Rec. 709, which is how a renderer without wavelengths sees them. Rounded to four digits.
+// Rec. 709, as Mitsuba 0.6 does in its build without wavelengths, whose pictures they reproduce. (Equal energy is not
+// the white of Rec. 709, so they lean to red by a little.) Rounded to four digits.
 constexpr std::array<NamedMetal, 21> kMetals = {{
     {"a-C", {{2.9441f, 2.2272f, 1.9682f}, {0.8874f, 0.7993f, 0.8153f}}},
     {"Ag", {{0.1553f, 0.1167f, 0.1384f}, {4.8283f, 3.1222f, 2.1470f}}},
