@@ -86,6 +86,9 @@ struct Trace {
     RecordingStats stats;
     double renderSeconds = 0;         ///< the renderer's own time
     double totalSeconds = 0;          ///< from sending the request to the decoded reply
+    std::uint64_t renderId = 0;       ///< the kept image that it was compared with; 0 if none
+    std::uint64_t seed = 0;           ///< with these settings it was replayed
+    std::string integrator, sampler;
 };
 
 /// Told while a request runs; calls come from the connection's own thread, so they must be quick.
@@ -121,6 +124,7 @@ class Connection {
 
     const Address& address() const;
     bool isOpen() const;
+    /// Calls that wait in other threads return connectionLost. So does destruction; it must not come from a callback.
     void close();
 
     Result<ServerInfo> info();

@@ -49,6 +49,10 @@ class RequestMonitor {
     virtual void progress(double fraction) = 0;
     /// Pixels that are finished, for the preview: `colors` row by row. Optional.
     virtual void preview(PixelRect rect, const std::vector<Color>& colors) = 0;
+    /// Around the replay of each pixel, in the thread that replays, inside its RecordScope: server tools are told. The
+    /// default renderPixels calls them; a renderer with a renderPixels of its own may.
+    virtual void beginPixel(Pixel) {}
+    virtual void endPixel(Pixel) {}
 };
 
 /// The one class that an adapter implements (paper, section 4). The server calls it from threads of its own, only
@@ -57,6 +61,7 @@ class Renderer {
   public:
     virtual ~Renderer() = default;
 
+    /// Called once, when the server starts: what it says must stay true.
     virtual RendererInfo info() const = 0;
     virtual Camera camera() const = 0;
     /// World space. Its order gives the mesh indices of setIntersectionSurface. Called once per client that asks.
@@ -72,8 +77,10 @@ class Renderer {
     virtual Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
                                       RequestMonitor& monitor) = 0;
 
-    /// Renders the requested pixels for methods whose paths may hit any pixel (light tracing, Metropolis): one pass
-    /// that records splats. The default calls renderPixel for each. \return one value per pixel, in order.
+    /// Renders the requested pixels, each of them once in the list, for methods whose paths may hit any pixel (light
+    /// tracing, Metropolis): one pass that records splats. Every trace comes in here. The calling thread is inside a
+    /// RecordScope without a pixel. The default calls renderPixel for each pixel inside a RecordScope of that pixel.
+    /// \return one value per pixel, in order.
     virtual Result<std::vector<Color>> renderPixels(const std::vector<Pixel>& pixels, const RenderSettings& settings,
                                                     Recording& recording, RequestMonitor& monitor);
 };

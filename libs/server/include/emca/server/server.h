@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -22,6 +23,7 @@ struct ServerOptions {
     std::size_t defaultBudget = 256u << 20;   ///< bytes of one recording where the client does not say
     std::size_t maximumBudget = 1u << 30;
     std::uint32_t keptImages = 4;             ///< finished renders kept for verdicts; older ones are forgotten
+    std::chrono::milliseconds handshakeTimeout{10000};  ///< a stranger that stays silent for so long is sent away
     bool allowQuit = false;                   ///< whether a client's quit request ends the server
     /// Where remarks for people go (a client came, was refused, …). Nothing is printed without it.
     std::function<void(const std::string&)> log;

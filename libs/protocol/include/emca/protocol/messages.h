@@ -1,0 +1,162 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "emca/core/camera.h"
+#include "emca/core/mesh.h"
+#include "emca/core/path_set.h"
+#include "emca/core/pixel.h"
+#include "emca/core/replay.h"
+#include "emca/core/result.h"
+#include "emca/core/shared_array.h"
+
+/// The messages of docs/protocol.md as values. Arrays of decoded messages look into the frame that they came in.
+namespace emca::protocol {
+
+struct Hello {
+    std::string software;                            ///< product and version, for people
+    std::uint16_t minimumVersion = 0, maximumVersion = 0;
+    std::vector<std::string> capabilities;
+    std::string token;                               ///< empty if none
+};
+
+struct Welcome {
+    std::string software;
+    std::uint16_t version = 0;                       ///< the highest that both sides speak
+    std::vector<std::string> capabilities;
+    std::uint32_t maximumRequestBytes = 0;
+};
+
+struct Refusal {
+    Error error;
+    std::uint16_t minimumVersion = 0, maximumVersion = 0;
+};
+
+struct Cancel {};
+struct Progress {
+    float fraction = 0;                              ///< in [0, 1]
+    bool waiting = false;                            ///< not begun: other work comes first
+};
+struct Failure { Error error; };
+struct Done {};
+
+struct InfoRequest {};
+struct Info {
+    std::string renderer, scene, integrator, sampler;
+    std::uint32_t width = 0, height = 0, samplesPerPixel = 0;
+    std::uint64_t seed = 0;
+    bool concurrent = false, deterministic = false;
+    std::uint64_t triangles = 0, meshes = 0;
+    std::uint32_t maximumSamplesPerPixel = 0, maximumPixelsPerTrace = 0;
+    std::uint64_t maximumBudget = 0;
+    std::vector<std::string> capabilities, tools;
+    std::uint64_t latestRender = 0;                  ///< 0 if none
+};
+
+struct CameraRequest {};
+
+struct SceneRequest { std::uint32_t maximumChunkBytes = 0; };   ///< 0: the server's choice
+/// Some vertices or triangles of one mesh. Parts of a mesh come in order, vertices before triangles; the first one
+/// brings its name, material and colours.
+struct MeshPart {
+    std::uint32_t mesh = 0;
+    std::string name, material;
+    Color diffuse{0.5f}, emission;
+    std::uint32_t vertexCount = 0, triangleCount = 0;    ///< of the whole mesh
+    std::uint32_t firstVertex = 0, firstTriangle = 0;    ///< of this part
+    SharedArray<Vec3f> positions;
+    SharedArray<Triangle> triangles;
+};
+struct SceneChunk {
+    std::uint32_t meshCount = 0;
+    std::uint64_t vertexCount = 0, triangleCount = 0;    ///< of the whole scene
+    std::vector<MeshPart> parts;
+    bool last = false;
+};
+
+/// Zero or empty: as the scene says.
+struct Settings {
+    std::uint32_t samplesPerPixel = 0;
+    std::string integrator, sampler;
+    std::uint64_t seed = 0;
+    bool hasSeed = false;
+    friend bool operator==(const Settings&, const Settings&) = default;
+};
+struct RenderRequest {
+    Settings settings;
+    bool preview = false;
+    std::uint32_t maximumChunkBytes = 0;
+};
+struct PreviewTile {
+    PixelRect rect;
+    SharedArray<Color> colors;                       ///< row by row, as many as the rectangle has pixels
+};
+/// Announces a finished image; its ImageRows follow.
+struct RenderResult {
+    std::uint64_t id = 0;
+    Settings settings;                               ///< complete
+    double seconds = 0;
+    std::uint32_t width = 0, height = 0;
+};
+struct ImageRows {
+    std::uint32_t firstRow = 0, rowCount = 0;
+    SharedArray<Color> colors;
+    SharedArray<float> samples;                      ///< per pixel
+    SharedArray<Color> variance;                     ///< per pixel; empty if the renderer does not know
+    bool last = false;
+};
+
+enum class Against : std::uint8_t { latestMatching = 0, renderId = 1, givenColors = 2, nothing = 3 };
+struct TraceRequest {
+    std::vector<Pixel> pixels;                       ///< or
+    PixelRect rect;                                  ///< if `pixels` is empty
+    Settings settings;
+    Against against = Against::latestMatching;
+    std::uint64_t renderId = 0;
+    SharedArray<Color> colors;
+    std::vector<std::string> columns;
+    std::string query;
+    std::uint64_t budget = 0;
+    bool locations = false;
+};
+struct TraceResult {
+    std::vector<Pixel> pixels;
+    std::vector<Replay> replays;
+    Settings settings;                               ///< complete, as replayed
+    std::uint64_t renderId = 0;                      ///< the image it was compared with; 0 if none
+    RecordingStats stats;
+    double renderSeconds = 0;
+    PathSet paths;
+};
+
+struct SurfaceRequest {                              ///< reserved: answered with notSupported in version 1
+    std::vector<std::string> layers;
+    Settings settings;
+    std::uint64_t budget = 0;
+};
+
+struct ToolRequest {
+    std::string tool;
+    SharedArray<std::byte> data;
+};
+struct ToolResult { SharedArray<std::byte> data; };
+
+struct QuitRequest {};
+
+/// Of a kind that only later versions know: a server answers it with notSupported, a client ignores it. Cannot be sent.
+struct Unknown { std::uint8_t kind = 0; };
+
+using Body = std::variant<Hello, Welcome, Refusal, Cancel, Progress, Failure, Done, InfoRequest, Info, CameraRequest,
+                          Camera, SceneRequest, SceneChunk, RenderRequest, PreviewTile, RenderResult, ImageRows,
+                          TraceRequest, TraceResult, SurfaceRequest, ToolRequest, ToolResult, QuitRequest,
+                          Unknown>;
+
+struct Message {
+    std::uint64_t request = 0;                       ///< chosen by the client, not 0; the handshake has 0
+    Body body;
+};
+
+}  // namespace emca::protocol

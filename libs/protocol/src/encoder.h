@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emca/protocol/messages.h"
+#include "wire.h"
+
+namespace emca::protocol {
+
+using Builder = flatbuffers::FlatBufferBuilder;
+template <typename T> using Offset = flatbuffers::Offset<T>;
+template <typename T> using WireVector = flatbuffers::Vector<std::conditional_t<std::is_class_v<T>, const T*, T>>;
+
+/// One column with one memcpy; empty ones take no space. \param alignment  of its first value
+template <typename Core>
+Offset<WireVector<Wire<Core>>> column(Builder& builder, std::span<const Core> values,
+                                      std::size_t alignment = alignof(Core)) {
+    if (values.empty()) return 0;
+    builder.ForceVectorAlignment(values.size(), sizeof(Core), alignment);
+    std::uint8_t* place = nullptr;
+    const auto offset = builder.CreateUninitializedVector(values.size(), sizeof(Core), &place);
+    std::memcpy(place, values.data(), values.size_bytes());
+    return offset;
+}
+template <typename Core>
+Offset<WireVector<Wire<Core>>> column(Builder& builder, const SharedArray<Core>& values,
+                                      std::size_t alignment = alignof(Core)) {
+    return column(builder, values.span(), alignment);
+}
+
+inline Offset<flatbuffers::String> text(Builder& builder, const std::string& value) {
+    return value.empty() ? Offset<flatbuffers::String>(0) : builder.CreateString(value);
+}
+inline Offset<flatbuffers::Vector<Offset<flatbuffers::String>>> texts(Builder& builder, const std::vector<std::string>& values) {
+    if (values.empty()) return 0;
+    return builder.CreateVectorOfStrings(values);
+}
+
+Offset<wire::Paths> encodePaths(Builder& builder, const PathColumns& columns);
+/// Upper bound of what encodePaths adds, so that the builder allocates once.
+std::size_t encodedBytes(const PathColumns& columns);
+
+}  // namespace emca::protocol
