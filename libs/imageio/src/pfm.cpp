@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "limits.h"
+#include "size_check.h"
 
 namespace emca::imageio {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "emca/imageio/imageio.h"
-#include "limits.h"
+#include "size_check.h"
 #include "pfm.h"
 #include "srgb.h"
 
