@@ -61,7 +61,7 @@ void dropBadTriangles(LoadedMesh& loaded, const std::filesystem::path& path) {
     const auto warn = [&](const Flaw& flaw, const std::string& what) {
         if (flaw.count > 0)
             loaded.warnings.push_back(std::to_string(flaw.count) + " triangles of \"" + path.string() + "\" " + what +
-                                      " and are left out; the first is triangle " + std::to_string(flaw.first) + ", counted from 0");
+                                      " and are left out; the first is triangle " + std::to_string(flaw.first) + ", counted from 0.");
     };
     warn(badIndex, "name a vertex that is not there");
     warn(badVertex, "have a vertex that is not finite");
@@ -81,7 +81,7 @@ void repairUvs(LoadedMesh& loaded, const std::filesystem::path& path) {
     if (bad.count > 0)
         loaded.warnings.push_back(std::to_string(bad.count) + " texture coordinates of \"" + path.string() +
                                   "\" are not finite and become (0, 0); the first is that of vertex " +
-                                  std::to_string(bad.first) + ", counted from 0");
+                                  std::to_string(bad.first) + ", counted from 0.");
 }
 
 void repairNormals(TriangleMesh& mesh) {
@@ -112,7 +112,7 @@ Result<LoadedMesh> cleanUp(TriangleMesh mesh, const MeshFileOptions& options, co
     if (loaded.mesh.triangles.empty())
         return Error{ErrorCode::fileUnreadable,
                      '"' + path.string() + "\" has no usable triangle" +
-                         (loaded.warnings.empty() ? std::string() : ": " + loaded.warnings.front())};
+                         (loaded.warnings.empty() ? "." : ": " + loaded.warnings.front())};
     if (options.flipTexCoords)
         for (auto& uv : loaded.mesh.uvs)
             uv.y = 1 - uv.y;

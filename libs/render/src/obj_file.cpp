@@ -81,12 +81,12 @@ class ObjReader {
             if (!good)
                 return failure(keyword);
             if (corners_.corners().size() >= kNoVertex)
-                return Error{ErrorCode::tooLarge, '"' + path_.string() + "\" has more than 2^32 vertices"};
+                return Error{ErrorCode::tooLarge, '"' + path_.string() + "\" has more than 2^32 vertices."};
         }
         auto loaded = cleanUp(makeMesh(), options_, path_);
         if (loaded && facesWithoutArea_ > 0)
             loaded->warnings.push_back(std::to_string(facesWithoutArea_) + " faces of \"" + path_.string() +
-                                       "\" have fewer than three corners and are left out");
+                                       "\" have fewer than three corners and are left out.");
         return loaded;
     }
 
@@ -200,7 +200,7 @@ class ObjReader {
                                : keyword == "vt" ? "one to three numbers"
                                                  : "three numbers";
         return {ErrorCode::fileUnreadable, path_.string() + ":" + std::to_string(cursor_.line()) + ": after \"" +
-                                               std::string(keyword) + "\" an OBJ file has " + expected};
+                                               std::string(keyword) + "\" an OBJ file has " + expected + '.'};
     }
 
     static constexpr std::int64_t kInvalid = -2;
@@ -223,7 +223,7 @@ Result<LoadedMesh> loadObj(const std::filesystem::path& path, const MeshFileOpti
         return bytes.error();
     return ObjReader(*bytes, options, path).read();
 } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::outOfMemory, "not enough memory for the mesh \"" + path.string() + '"'};
+    return Error{ErrorCode::outOfMemory, "Not enough memory for the mesh \"" + path.string() + "\"."};
 }
 
 }  // namespace emca::render

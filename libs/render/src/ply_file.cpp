@@ -96,7 +96,7 @@ class PlyReader {
             element.find({"nx"}), element.find({"ny"}), element.find({"nz"}),
             element.find({"u", "s", "texture_u", "texture_s"}), element.find({"v", "t", "texture_v", "texture_t"})};
         if (found[kX] < 0 || found[1] < 0 || found[2] < 0)
-            return Error{ErrorCode::fileUnreadable, '"' + path_.string() + "\" has vertices without x, y and z"};
+            return Error{ErrorCode::fileUnreadable, '"' + path_.string() + "\" has vertices without x, y and z."};
         const bool withNormals = !options_.faceNormals && found[kNx] >= 0 && found[4] >= 0 && found[5] >= 0;
         const bool withUvs = found[kU] >= 0 && found[kU + 1] >= 0;
         std::vector<std::size_t> places(element.properties.size(), kPlaces);
@@ -128,7 +128,7 @@ class PlyReader {
     Result<void> readFaces(const PlyElement& element) {
         const int indices = element.find({"vertex_indices", "vertex_index"});
         if (indices < 0 || !element.properties[static_cast<std::size_t>(indices)].isList)
-            return Error{ErrorCode::fileUnreadable, '"' + path_.string() + "\" has faces without a list vertex_indices"};
+            return Error{ErrorCode::fileUnreadable, '"' + path_.string() + "\" has faces without a list vertex_indices."};
         mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -193,7 +193,7 @@ class PlyReader {
     Error endedEarly(const PlyElement& element, std::uint64_t index) const {
         return {ErrorCode::fileUnreadable, '"' + path_.string() + "\" ends, or has something that is no number, in " +
                                                element.name + " " + std::to_string(index) + " of " +
-                                               std::to_string(element.count) + " (counted from 0)"};
+                                               std::to_string(element.count) + " (counted from 0)."};
     }
 
     Values values_;
@@ -216,7 +216,7 @@ Result<LoadedMesh> loadPly(const std::filesystem::path& path, const MeshFileOpti
         return PlyReader(TextValues(data), options, path).read(*header);
     return PlyReader(BinaryValues(data, header->format == PlyFormat::bigEndian), options, path).read(*header);
 } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::outOfMemory, "not enough memory for the mesh \"" + path.string() + '"'};
+    return Error{ErrorCode::outOfMemory, "Not enough memory for the mesh \"" + path.string() + "\"."};
 }
 
 }  // namespace emca::render

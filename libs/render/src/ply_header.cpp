@@ -69,7 +69,7 @@ Result<PlyHeader> readPlyHeader(std::string_view file, const std::filesystem::pa
     std::size_t at = 0;
     bool formatSeen = false;
     const auto failure = [&](std::size_t line, const std::string& what) {
-        return Error{ErrorCode::fileUnreadable, path.string() + ":" + std::to_string(line) + ": " + what};
+        return Error{ErrorCode::fileUnreadable, path.string() + ":" + std::to_string(line) + ": " + what + '.'};
     };
     for (std::size_t line = 1;; ++line) {
         const auto end = file.find('\n', at);

@@ -12,6 +12,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// Every remark is a sentence.
+std::string withoutStop(const std::string& sentence) {
+    EXPECT_TRUE(sentence.ends_with('.')) << sentence;
+    return sentence.substr(0, sentence.size() - 1);
+}
+
 /// A scene with one node, and a reader of it.
 struct Reading {
     explicit Reading(const std::string& content, const std::filesystem::path& path = "scene.xml")
@@ -20,7 +26,7 @@ struct Reading {
     std::vector<std::string> messages() const {
         std::vector<std::string> texts;
         for (const auto& d : diagnostics)
-            texts.push_back(d.where.text() + ": " + d.message);
+            texts.push_back(d.where.text() + ": " + withoutStop(d.message));
         return texts;
     }
     Result<SceneDocument> document;

@@ -44,7 +44,7 @@ Result<SceneDocument> SceneReader::read(const XmlSource& source) {
     const SceneElement scene = makeElement(source, source.root());
     if (scene.tag() != "scene")
         return Error{ErrorCode::parseFailed, scene.where().text() + ": not a scene: the outermost element is <" + scene.tag() +
-                                                 ">, but <scene> is expected"};
+                                                 ">, but <scene> is expected."};
     document_.folder = source.path().parent_path();
     document_.searchFolders.push_back(document_.folder);
     openFiles_.push_back(canonicalPath(source.path()));

@@ -15,6 +15,13 @@ using ValueReader = Result<Property> (*)(const SceneElement&, SpectrumUse, const
 
 std::string shortened(const std::string& text) { return text.size() <= 60 ? text : text.substr(0, 57) + "..."; }
 
+/// A sentence to be continued.
+std::string withoutStop(std::string sentence) {
+    if (sentence.ends_with('.'))
+        sentence.pop_back();
+    return sentence;
+}
+
 /// What is wrong with the value of an element: `value "abc" of float "alpha" <what>`.
 Error badValue(const SceneElement& element, const std::string& value, std::string_view what) {
     std::string message = "value \"" + shortened(value) + "\" of " + element.tag();
@@ -149,7 +156,7 @@ Result<Property> readSpectrum(const SceneElement& element, SpectrumUse use, cons
     if (const auto* file = element.find("filename")) {
         const auto samples = readSpectrumFile(folder / *file);
         if (!samples)
-            return badValue(element, *file, "is not a readable spectrum: " + samples.error().message);
+            return badValue(element, *file, "is not a readable spectrum: " + withoutStop(samples.error().message));
         return Property(toRgb(*samples, use));
     }
     const auto text = valueOf(element);
@@ -163,7 +170,7 @@ Result<Property> readSpectrum(const SceneElement& element, SpectrumUse use, cons
     }
     const auto samples = parseSpectrum(*text);
     if (!samples)
-        return badValue(element, *text, "is not a spectrum: " + samples.error().message);
+        return badValue(element, *text, "is not a spectrum: " + withoutStop(samples.error().message));
     if (samples->size() == 1)
         return Property(Color(static_cast<float>(samples->front().value)));
     return Property(toRgb(*samples, use));

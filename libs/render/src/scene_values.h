@@ -18,7 +18,7 @@ std::string toSnakeCase(std::string_view name);
 bool isValueTag(std::string_view tag);
 
 /// The value of such an element. \param folder  where files named in it are
-/// Errors: parseFailed, message such as: value "abc" of float "alpha" is not a number.
+/// Errors: parseFailed; the message is the begin of a sentence: value "abc" of float "alpha" is not a finite number
 Result<Property> readValue(const SceneElement& element, SpectrumUse use, const std::filesystem::path& folder);
 
 /// Whether a tag is a step of a transform (translate, scale, rotate, lookat, matrix).

@@ -16,7 +16,7 @@ Result<SceneDocument> readScene(const Result<std::unique_ptr<XmlSource>>& source
 }
 
 Error outOfMemory(const std::filesystem::path& path) {
-    return {ErrorCode::outOfMemory, "not enough memory to read scene \"" + path.string() + '"'};
+    return {ErrorCode::outOfMemory, "Not enough memory to read scene \"" + path.string() + "\"."};
 }
 
 }  // namespace

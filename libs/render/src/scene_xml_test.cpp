@@ -14,10 +14,16 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
+/// Every remark is a sentence.
+std::string withoutStop(const std::string& sentence) {
+    EXPECT_TRUE(sentence.ends_with('.')) << sentence;
+    return sentence.substr(0, sentence.size() - 1);
+}
+
 std::vector<std::string> messages(const SceneDocument& document) {
     std::vector<std::string> texts;
     for (const auto& d : document.diagnostics)
-        texts.push_back(d.where.text() + ": " + d.message);
+        texts.push_back(d.where.text() + ": " + withoutStop(d.message));
     return texts;
 }
 

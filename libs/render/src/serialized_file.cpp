@@ -147,7 +147,7 @@ class SerializedReader {
         constexpr std::uint64_t kLimit = std::numeric_limits<std::uint32_t>::max();
         if (vertices >= kLimit || triangles >= kLimit)
             return Error{ErrorCode::tooLarge, text() + " announces " + std::to_string(vertices) + " vertices and " +
-                                                  std::to_string(triangles) + " triangles, more than 2^32"};
+                                                  std::to_string(triangles) + " triangles, more than 2^32."};
         TriangleMesh mesh;
         const bool good = (flags & kDoublePrecision) ? readVertices<double>(stream, flags, vertices, mesh)
                                                      : readVertices<float>(stream, flags, vertices, mesh);
@@ -211,9 +211,9 @@ class SerializedReader {
     std::string text() const {
         return '"' + path_.string() + "\" (mesh " + std::to_string(options_.shapeIndex) + ")";
     }
-    Error failure(const std::string& what) const { return {ErrorCode::fileUnreadable, '"' + path_.string() + "\" " + what}; }
+    Error failure(const std::string& what) const { return {ErrorCode::fileUnreadable, '"' + path_.string() + "\" " + what + '.'}; }
     Error damaged(const std::string& where) const {
-        return {ErrorCode::fileUnreadable, text() + " is damaged or ends before the end of " + where};
+        return {ErrorCode::fileUnreadable, text() + " is damaged or ends before the end of " + where + '.'};
     }
 
     const std::filesystem::path& path_;
@@ -226,12 +226,12 @@ Result<LoadedMesh> loadSerialized(const std::filesystem::path& path, const MeshF
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
-        return Error{ErrorCode::fileNotFound, "file \"" + path.string() + "\" does not exist"};
+        return Error{ErrorCode::fileNotFound, "File \"" + path.string() + "\" does not exist."};
     if (!std::filesystem::is_regular_file(status) || !BinaryFile(path).isOpen())
-        return Error{ErrorCode::fileUnreadable, '"' + path.string() + "\" is not a file that can be opened"};
+        return Error{ErrorCode::fileUnreadable, '"' + path.string() + "\" is not a file that can be opened."};
     return SerializedReader(path, options).read();
 } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::outOfMemory, "not enough memory for the mesh \"" + path.string() + '"'};
+    return Error{ErrorCode::outOfMemory, "Not enough memory for the mesh \"" + path.string() + "\"."};
 }
 
 }  // namespace emca::render

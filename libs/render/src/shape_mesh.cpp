@@ -10,7 +10,7 @@ namespace emca::render {
 namespace {
 
 Error badValue(const PropertyReader& shape, const std::string& what) {
-    return {ErrorCode::invalidArgument, shape.description() + " " + what};
+    return {ErrorCode::invalidArgument, shape.description() + " " + what + '.'};
 }
 
 /// Transform of a shape: finite and not singular, as a shape without volume has no normals.
@@ -99,7 +99,7 @@ Result<ShapeGeometry> readShapeGeometry(PropertyReader& shape) {
     static constexpr const char* kTypes[] = {"obj", "ply", "serialized", "rectangle", "cube", "sphere", "disk"};
     if (std::none_of(std::begin(kTypes), std::end(kTypes), [&](const char* t) { return shape.type() == t; }))
         return Error{ErrorCode::notSupported, shape.description() + " is of a type that is not known (known: obj, ply, "
-                                                                    "serialized, rectangle, cube, sphere, disk)"};
+                                                                    "serialized, rectangle, cube, sphere, disk)."};
     const auto toWorld = readToWorld(shape);
     if (!toWorld)
         return toWorld.error();

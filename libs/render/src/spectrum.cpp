@@ -115,7 +115,7 @@ Result<std::vector<SpectrumSample>> parseSpectrum(std::string_view text) {
         const auto value = colon == part.npos ? std::nullopt : parseNumber<double>(part.substr(colon + 1));
         if (!wavelength || !value)
             return Error{ErrorCode::parseFailed,
-                         '"' + std::string(part.substr(0, 40)) + "\" is no \"wavelength:value\" of a spectrum"};
+                         '"' + std::string(part.substr(0, 40)) + "\" is no \"wavelength:value\" of a spectrum."};
         samples.push_back({*wavelength, *value});
     }
     return samples;
@@ -139,7 +139,7 @@ Result<std::vector<SpectrumSample>> readSpectrumFile(const std::filesystem::path
         if (!numbers || numbers->size() != 2)
             return Error{ErrorCode::fileUnreadable, path.string() + ":" + std::to_string(line) +
                                                         ": a spectrum file has a wavelength and a value in each line, not \"" +
-                                                        std::string(content.substr(0, 40)) + '"'};
+                                                        std::string(content.substr(0, 40)) + "\"."};
         samples.push_back({(*numbers)[0], (*numbers)[1]});
     }
     return samples;

@@ -17,7 +17,7 @@ constexpr std::uint64_t kMaxSceneFileBytes = std::uint64_t(512) << 20;
 Result<std::unique_ptr<XmlSource>> XmlSource::readFile(const std::filesystem::path& path) {
     auto bytes = readFileBytes(path, kMaxSceneFileBytes);
     if (!bytes)
-        return Error{bytes.error().code, "the scene cannot be read: " + bytes.error().message};
+        return Error{bytes.error().code, "The scene cannot be read: " + bytes.error().message};
     return parse(std::move(*bytes), path);
 }
 
@@ -35,10 +35,10 @@ Result<std::unique_ptr<XmlSource>> XmlSource::parse(std::string text, const std:
         const auto column = result.offset - source->lineStarts_[static_cast<std::size_t>(line - 1)] + 1;
         return Error{result.status == pugi::status_out_of_memory ? ErrorCode::outOfMemory : ErrorCode::parseFailed,
                      path.string() + ":" + std::to_string(line) + ": not well-formed XML: " + result.description() +
-                         " (column " + std::to_string(column) + ")"};
+                         " (column " + std::to_string(column) + ")."};
     }
     if (!source->root())
-        return Error{ErrorCode::parseFailed, path.string() + ":1: not a scene: no XML element found"};
+        return Error{ErrorCode::parseFailed, path.string() + ":1: not a scene: no XML element found."};
     return source;
 }
 
