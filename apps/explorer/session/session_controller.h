@@ -1,0 +1,139 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "base/listeners.h"
+#include "emca/client/connection.h"
+#include "session/activity.h"
+#include "session/workers.h"
+
+namespace emca::explorer {
+
+enum class LinkState { offline, connecting, connected, reconnecting };
+
+/// What a failure was about, so that the window can offer the right way on.
+enum class FailedTask { connect, render, trace, scene, openImage, saveImage };
+
+/// Everything between the models and the renderer: owns the connection, runs all requests and file access in other
+/// threads and puts what arrives into Dataset. GUI thread; no function blocks.
+///
+/// A pixel that becomes selected is traced: from the history at once if it was traced for the same image, else by a
+/// request. The latest pixel wins; an earlier request is cancelled. A connection that is lost is opened again with
+/// growing pauses; images and traces stay, the scene is loaded anew.
+class SessionController : public QObject {
+    Q_OBJECT
+  public:
+    SessionController(client::Dataset& dataset, client::Selection& selection, QObject* parent = nullptr);
+    ~SessionController() override;
+
+    LinkState link() const { return link_; }
+    const client::Address& address() const { return address_; }
+    /// Render as soon as a renderer is connected and no image of its size is there.
+    void setRenderOnConnect(bool render) { renderOnConnect_ = render; }
+
+    bool isRendering() const { return render_ != nullptr; }
+    bool isTracing() const { return trace_ != nullptr; }
+    bool isLoadingScene() const { return scene_ != nullptr; }
+    bool isReadingFile() const { return filesBeingRead_ > 0; }
+    /// Nothing is under way and nothing is waiting for a connection.
+    bool isIdle() const;
+    double renderFraction() const { return render_ ? render_->fraction.load() : 0; }
+    double traceFraction() const { return trace_ ? trace_->fraction.load() : 0; }
+    double traceSeconds() const { return trace_ ? double(trace_->clock.elapsed()) / 1000 : 0; }
+    double sceneFraction() const { return scene_ ? scene_->fraction.load() : 0; }
+    std::optional<Pixel> tracedPixel() const { return tracing_; }
+    /// "pixel (12, 34) in 23.10 ms, renderer 17.00 ms"; empty before the first request.
+    const QString& lastRequest() const { return lastRequest_; }
+
+  public slots:
+    void connectTo(const emca::client::Address& address, const QString& token = {});
+    void disconnectFromRenderer();
+    void retryNow();
+    /// Zero samples: the scene's. A render that runs is cancelled first.
+    void render(const emca::client::RenderOptions& options);
+    void cancelRender();
+    /// Asks again, also where the history has a reply.
+    void traceAgain();
+    void cancelTrace();
+    void reloadScene();
+    void openImage(const QString& file);
+    void saveImage(const QString& file);
+    /// Shows a trace of the history and selects its pixel.
+    void showTrace(std::shared_ptr<const emca::client::Trace> trace);
+
+  signals:
+    void linkChanged();
+    /// Something began, ended or made progress.
+    void activityChanged();
+    void renderFinished();
+    void traceFinished();
+    void imageOpened();
+    void imageSaved(const QString& file);
+    void failed(emca::explorer::FailedTask task, const QString& sentence);
+
+  private:
+    struct Opened;
+    void open();
+    void opened(std::uint64_t generation, Result<Opened> result);
+    void adopt(Opened opened);
+    void lost(std::uint64_t generation, const Error& error);
+    void scheduleRetry(const QString& reason);
+    void setLink(LinkState link);
+    void drop();
+    void fail(FailedTask task, const Error& error);
+
+    void ensureTraced(bool quietly);
+    void trace(Pixel pixel);
+    void traced(std::shared_ptr<Activity> activity, std::shared_ptr<const RenderedImage> image, Result<client::Trace> result);
+    void present(std::shared_ptr<const client::Trace> trace, bool fresh);
+    /// Why the pixel of the current image cannot be traced, or empty.
+    QString obstacle(Pixel pixel) const;
+    client::TraceOptions traceOptions(Pixel pixel) const;
+
+    void rendered(std::shared_ptr<Activity> activity, Result<client::Render> result);
+    void drainPreview();
+    void loadScene();
+    void forgetRenderIds();
+    void begin();
+    std::optional<std::size_t> indexOf(const std::shared_ptr<const RenderedImage>& image) const;
+
+    client::Dataset& dataset_;
+    client::Selection& selection_;
+
+    LinkState link_ = LinkState::offline;
+    client::Address address_;
+    QString token_;
+    std::shared_ptr<client::Connection> connection_;
+    std::uint64_t generation_ = 0;      ///< counts connections: what an earlier one still delivers is dropped
+    int attempt_ = 0;
+    QTimer retry_;
+    bool renderOnConnect_ = true;
+
+    std::shared_ptr<Activity> render_, trace_, scene_;
+    std::shared_ptr<RenderedImage> preview_;
+    client::RenderOptions renderOptions_;
+    int renderCount_ = 0, filesBeingRead_ = 0;
+    std::optional<Pixel> tracing_;
+    QTimer progress_;
+    QString lastRequest_;
+
+    struct Known {
+        Pixel pixel;
+        const RenderedImage* image;     ///< only compared
+        std::shared_ptr<const client::Trace> trace;
+    };
+    std::deque<Known> known_;
+
+    Workers workers_;
+    DatasetListening datasetListening_;
+    SelectionListening selectionListening_;
+};
+
+}  // namespace emca::explorer
+
+Q_DECLARE_METATYPE(emca::explorer::FailedTask)

@@ -1,0 +1,132 @@
+#include "window/history_view.h"
+
+#include <QListView>
+#include <QMenu>
+#include <QPainter>
+#include <QSignalBlocker>
+#include <QStyledItemDelegate>
+#include <QVBoxLayout>
+
+#include "base/qt_compat.h"
+#include "base/state_overlay.h"
+#include "base/theme.h"
+#include "emca/analysis/format.h"
+#include "emca/analysis/tone_map.h"
+#include "paths/swatch.h"
+
+namespace emca::explorer {
+namespace {
+
+constexpr int kRowHeight = 46;
+
+class HistoryDelegate : public QStyledItemDelegate {
+  public:
+    HistoryDelegate(HistoryModel& model, Theme& theme, QObject* parent) : QStyledItemDelegate(parent), model_(model), theme_(theme) {}
+    QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {160, kRowHeight}; }
+
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const auto trace = model_.trace(index.row());
+        if (!trace || trace->pixels.empty()) return;
+        const ThemeColors& c = theme_.colors();
+        const bool selected = option.state & QStyle::State_Selected, hovered = option.state & QStyle::State_MouseOver;
+        painter->fillRect(option.rect, selected ? c.selectedRow : hovered ? c.panel : c.ground);
+        const QRect box = option.rect.adjusted(Spacing::medium, 6, -Spacing::medium, -6);
+        const Replay replay = trace->replays.empty() ? Replay{} : trace->replays.front();
+        paintSwatch(*painter, QRect(box.left(), box.top(), 34, box.height()), replay.replayed, analysis::ToneMapper(theme_.toneMap()), theme_);
+        const QRect text = box.adjusted(44, 0, 0, 0);
+        painter->setFont(theme_.numberFont());
+        painter->setPen(c.text);
+        painter->drawText(text, Qt::AlignLeft | Qt::AlignTop, toQString(analysis::formatPixel(trace->pixels.front())));
+        painter->setPen(replay.verdict == Verdict::exact ? c.success : replay.verdict == Verdict::different ? c.warning : c.mutedText);
+        painter->drawText(text, Qt::AlignRight | Qt::AlignTop, toQString(name(replay.verdict)));
+        painter->setFont(theme_.smallNumberFont());
+        painter->setPen(c.mutedText);
+        painter->drawText(text, Qt::AlignLeft | Qt::AlignBottom,
+                          QStringLiteral("Y %1").arg(toQString(analysis::formatNumber(double(luminance(replay.replayed))))));
+        painter->drawText(text, Qt::AlignRight | Qt::AlignBottom,
+                          QObject::tr("%1 paths").arg(trace->paths.pathCount()));
+    }
+
+  private:
+    HistoryModel& model_;
+    Theme& theme_;
+};
+
+}  // namespace
+
+HistoryModel::HistoryModel(client::Dataset& dataset, QObject* parent) : QAbstractListModel(parent), dataset_(dataset), traces_(dataset.traces()) {}
+
+void HistoryModel::reload() {
+    beginResetModel();
+    traces_ = dataset_.traces();
+    endResetModel();
+}
+
+int HistoryModel::rowCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : static_cast<int>(traces_.size()); }
+
+std::shared_ptr<const client::Trace> HistoryModel::trace(int row) const {
+    return row >= 0 && row < rowCount() ? traces_[static_cast<std::size_t>(row)] : nullptr;
+}
+
+QVariant HistoryModel::data(const QModelIndex& index, int role) const {
+    const auto held = trace(index.row());
+    if (!held || held->pixels.empty()) return {};
+    const QString pixel = toQString(analysis::formatPixel(held->pixels.front()));
+    if (role == Qt::DisplayRole) return pixel;
+    if (role != Qt::ToolTipRole) return {};
+    return tr("Pixel %1: %2 samples per pixel, %3 paths, %4 vertices. The renderer took %5.")
+        .arg(pixel).arg(held->samplesPerPixel).arg(held->paths.pathCount()).arg(held->paths.vertexCount())
+        .arg(toQString(analysis::formatDuration(held->renderSeconds)));
+}
+
+HistoryView::HistoryView(client::Dataset& dataset, client::Selection&, Theme& theme, QWidget* parent)
+    : QWidget(parent), dataset_(dataset), model_(new HistoryModel(dataset, this)), list_(new QListView), overlay_(nullptr),
+      datasetListening_(dataset, [this](std::uint32_t parts) {
+          if (parts & client::DatasetPart::traces) reload();
+          if (parts & (client::DatasetPart::traces | client::DatasetPart::currentTrace)) follow();
+      }) {
+    list_->setModel(model_);
+    list_->setItemDelegate(new HistoryDelegate(*model_, theme, this));
+    list_->setMouseTracking(true);
+    list_->setUniformItemSizes(true);
+    list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+    list_->setContextMenuPolicy(Qt::CustomContextMenu);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(list_);
+    overlay_ = new StateOverlay(theme, this);
+    connect(list_, &QListView::activated, this, [this](const QModelIndex& i) { emit traceChosen(model_->trace(i.row())); });
+    connect(list_, &QListView::clicked, this, [this](const QModelIndex& i) { emit traceChosen(model_->trace(i.row())); });
+    connect(list_, &QListView::customContextMenuRequested, this, [this](const QPoint& at) {
+        const auto trace = model_->trace(list_->indexAt(at).row());
+        if (!trace) return;
+        QMenu menu;
+        connect(menu.addAction(tr("Show")), &QAction::triggered, this, [this, trace] { emit traceChosen(trace); });
+        connect(menu.addAction(tr("Trace again")), &QAction::triggered, this, [this, trace] {
+            emit traceChosen(trace);
+            emit traceAgainWanted();
+        });
+        menu.exec(list_->viewport()->mapToGlobal(at));
+    });
+    for (auto signal : {&Theme::themeChanged, &Theme::toneMapChanged})
+        connect(&theme, signal, list_->viewport(), qOverload<>(&QWidget::update));
+    reload();
+    follow();
+}
+
+void HistoryView::reload() {
+    model_->reload();
+    if (dataset_.traces().empty()) overlay_->showEmpty(tr("No pixels yet"), tr("Traced pixels are kept here. Click a pixel in the image."));
+    else overlay_->clear();
+}
+
+void HistoryView::follow() {
+    for (int row = 0; row < model_->rowCount(); ++row) {
+        if (dataset_.current().size() != 1 || model_->trace(row) != dataset_.current().front()) continue;
+        list_->setCurrentIndex(model_->index(row, 0));
+        return;
+    }
+    list_->clearSelection();
+}
+
+}  // namespace emca::explorer

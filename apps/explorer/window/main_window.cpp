@@ -1,0 +1,213 @@
+#include "window/main_window.h"
+
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QMimeData>
+#include <QScrollArea>
+#include <QStatusBar>
+#include <QTimer>
+#include <QUrl>
+
+#include "base/qt_compat.h"
+#include "base/state_overlay.h"
+#include "base/theme.h"
+#include "image/image_view.h"
+#include "paths/path_tree.h"
+#include "scene/scene_view.h"
+#include "window/connect_panel.h"
+#include "window/history_view.h"
+#include "window/panel_dock.h"
+#include "window/sample_box.h"
+#include "window/status_strip.h"
+#include "window/toast.h"
+#include "window/vertex_view.h"
+
+namespace emca::explorer {
+namespace {
+
+/// Raised whenever docks are added or renamed: an older saved layout would hide the new ones.
+constexpr int kLayoutVersion = 1;
+
+}  // namespace
+
+MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, SessionController& session, Theme& theme,
+                       QSettings& settings)
+    : dataset_(dataset), selection_(selection), session_(session), theme_(theme), settings_(settings),
+      views_(Views::make(dataset, selection, theme)), undo_(selection),
+      datasetListening_(dataset, [this](std::uint32_t parts) {
+          if (parts & (client::DatasetPart::info | client::DatasetPart::images | client::DatasetPart::currentImage)) showStates();
+          if (parts & (client::DatasetPart::info | client::DatasetPart::currentTrace)) status_->refresh();
+          if (parts & client::DatasetPart::info && dataset_.info() && !samplesTyped_)
+              samples_->setValue(static_cast<int>(dataset_.info()->samplesPerPixel));
+          updateActions();
+      }),
+      selectionListening_(selection, [this](std::uint32_t parts) {
+          if (parts & ~static_cast<std::uint32_t>(client::SelectionPart::hover)) updateActions();
+      }) {
+    setWindowTitle(tr("EMCA"));
+    setObjectName("mainWindow");
+    setAcceptDrops(true);
+    setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
+    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    setDocumentMode(true);
+    resize(1920, 1080);
+
+    toast_ = new Toast(theme, this);
+    connectPanel_ = new ConnectPanel(theme, this);
+    status_ = new StatusStrip(dataset, session, theme, this);
+    samples_ = new SampleBox;
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(status_, 1);
+    addDocks();
+    addMenus();
+    addToolBar();
+    connectSession();
+    readSettings();
+    updateActions();
+    showStates();
+}
+
+MainWindow::~MainWindow() = default;
+
+PanelDock* MainWindow::dock(const QString& name) const {
+    const auto found = docks_.find(name);
+    return found == docks_.end() ? nullptr : found->second;
+}
+
+QAction* MainWindow::action(const QString& name) const {
+    const auto found = actions_.find(name);
+    return found == actions_.end() ? nullptr : found->second;
+}
+
+PanelDock* MainWindow::addDock(const QString& title, const QString& name, QWidget* widget) {
+    auto* made = new PanelDock(title, name, widget, this);
+    docks_[name] = made;
+    connect(made, &QDockWidget::dockLocationChanged, this, &MainWindow::updateDockTitles);
+    connect(made, &QDockWidget::topLevelChanged, this, &MainWindow::updateDockTitles);
+    connect(made, &QDockWidget::visibilityChanged, this, &MainWindow::updateDockTitles);
+    return made;
+}
+
+void MainWindow::addDocks() {
+    addDock(tr("Image"), "image", views_.image);
+    for (const Views::Plot& plot : views_.plots) addDock(plot.title, plot.name, plot.widget);
+    addDock(tr("Scene"), "scene", views_.scene);
+    addDock(tr("Paths"), "paths", views_.paths);
+    addDock(tr("Intersection"), "vertex", views_.vertex);
+    if (views_.outliers) addDock(tr("Outliers"), "outliers", views_.outliers);
+    addDock(tr("History"), "history", views_.history);
+    addDock(tr("3D options"), "sceneOptions", views_.sceneOptions);
+    arrange();
+}
+
+/// All docks share one area, so that splits nest as LOOK wants: image over plots | 3D over tree and table | tools.
+void MainWindow::arrange() {
+    PanelDock* image = dock("image");
+    PanelDock* scene = dock("scene");
+    PanelDock* tools = dock("history");
+    for (const auto& [name, made] : docks_) {
+        removeDockWidget(made);
+        made->setFloating(false);
+    }
+    addDockWidget(Qt::LeftDockWidgetArea, image);
+    splitDockWidget(image, scene, Qt::Horizontal);
+    splitDockWidget(scene, tools, Qt::Horizontal);
+    if (!views_.plots.empty()) {
+        PanelDock* first = dock(views_.plots.front().name);
+        splitDockWidget(image, first, Qt::Vertical);
+        for (std::size_t i = 1; i < views_.plots.size(); ++i) tabifyDockWidget(dock(views_.plots[i - 1].name), dock(views_.plots[i].name));
+    }
+    splitDockWidget(scene, dock("paths"), Qt::Vertical);
+    splitDockWidget(dock("paths"), dock("vertex"), Qt::Horizontal);
+    PanelDock* front = tools;
+    if (PanelDock* outliers = dock("outliers")) {
+        tabifyDockWidget(tools, outliers);
+        front = outliers;
+    }
+    tabifyDockWidget(front, dock("sceneOptions"));
+    for (const auto& [name, made] : docks_) made->show();
+
+    const int w = width(), h = height() - 120;
+    const int toolsWidth = std::min(290, w / 6), left = w * 2 / 5, right = w - left - toolsWidth;
+    resizeDocks({image, scene, tools}, {left, right, toolsWidth}, Qt::Horizontal);
+    if (!views_.plots.empty()) resizeDocks({image, dock(views_.plots.front().name)}, {h * 56 / 100, h * 44 / 100}, Qt::Vertical);
+    resizeDocks({scene, dock("paths")}, {h * 60 / 100, h * 40 / 100}, Qt::Vertical);
+    resizeDocks({dock("paths"), dock("vertex")}, {right * 56 / 100, right * 44 / 100}, Qt::Horizontal);
+    if (!views_.plots.empty()) dock(views_.plots.front().name)->raise();
+    front->raise();
+    updateDockTitles();
+}
+
+void MainWindow::resetLayout() { arrange(); }
+
+void MainWindow::updateDockTitles() {
+    // Docks report moves before the layout knows their new neighbours.
+    QTimer::singleShot(0, this, [this] {
+        for (const auto& [name, made] : docks_) made->updateTitle();
+    });
+}
+
+void MainWindow::showDock(const QString& name) {
+    if (PanelDock* wanted = dock(name)) {
+        wanted->show();
+        wanted->raise();
+    }
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    if (arranged_) return;
+    arranged_ = true;
+    // Sizes of docks hold only once the window has its own.
+    const QByteArray state = settings_.value("window/state").toByteArray();
+    if (state.isEmpty() || !restoreState(state, kLayoutVersion)) arrange();
+    updateDockTitles();
+}
+
+void MainWindow::readSettings() {
+    setTheme(settings_.value("theme").toString() == "light" ? ThemeKind::light : ThemeKind::dark);
+    connectPanel_->setHistory(settings_.value("connections").toStringList());
+    if (const QByteArray geometry = settings_.value("window/geometry").toByteArray(); !geometry.isEmpty()) restoreGeometry(geometry);
+    action("renderOnConnect")->setChecked(settings_.value("renderOnConnect", true).toBool());
+}
+
+void MainWindow::writeSettings() {
+    settings_.setValue("theme", theme_.isDark() ? "dark" : "light");
+    settings_.setValue("connections", connectPanel_->history());
+    settings_.setValue("window/geometry", saveGeometry());
+    settings_.setValue("window/state", saveState(kLayoutVersion));
+    settings_.setValue("renderOnConnect", action("renderOnConnect")->isChecked());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    writeSettings();
+    QMainWindow::closeEvent(event);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls())
+        if (url.isLocalFile()) session_.openImage(url.toLocalFile());
+    event->acceptProposedAction();
+}
+
+void MainWindow::connectTo(const client::Address& address, const QString& token) {
+    connectPanel_->remember(address);
+    toast_->clear();
+    session_.connectTo(address, token);
+}
+
+void MainWindow::render() {
+    client::RenderOptions options;
+    options.samplesPerPixel = static_cast<std::uint32_t>(samples_->value());
+    session_.render(options);
+}
+
+bool MainWindow::isSettled() const {
+    return session_.isIdle() && views_.image->pixels().isReady() && !views_.scene->isLoading() && !views_.scene->isMoving();
+}
+
+}  // namespace emca::explorer

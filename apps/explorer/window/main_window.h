@@ -1,0 +1,105 @@
+#pragma once
+
+#include <QMainWindow>
+#include <QSettings>
+#include <map>
+#include <vector>
+
+#include "base/listeners.h"
+#include "session/session_controller.h"
+#include "window/selection_undo.h"
+#include "window/views.h"
+
+class QAction;
+class QActionGroup;
+class QToolButton;
+
+namespace emca::explorer {
+
+class ConnectPanel;
+class PanelDock;
+class SampleBox;
+class StateOverlay;
+class StatusStrip;
+class Theme;
+class Toast;
+
+/// The window: views in docks, menus, toolbar, status bar, keys, and the words for every state. It decides nothing about
+/// data: that is SessionController, Dataset and Selection.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+  public:
+    /// All outlive the window. \param settings  layout, theme and addresses are read from and written to it
+    MainWindow(client::Dataset& dataset, client::Selection& selection, SessionController& session, Theme& theme,
+               QSettings& settings);
+    ~MainWindow() override;
+
+    Views& views() { return views_; }
+    PanelDock* dock(const QString& name) const;
+    const std::map<QString, PanelDock*>& docks() const { return docks_; }
+    Toast& toast() { return *toast_; }
+    ConnectPanel& connectPanel() { return *connectPanel_; }
+    SampleBox& samples() { return *samples_; }
+    QAction* action(const QString& name) const;
+
+    /// Brings a dock's tab to the front.
+    void showDock(const QString& name);
+    /// Nothing is under way and every view has drawn what it has.
+    bool isSettled() const;
+
+  public slots:
+    void connectTo(const emca::client::Address& address, const QString& token = {});
+    void render();
+    void resetLayout();
+
+  protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+    void showEvent(QShowEvent* event) override;
+
+  private:
+    // main_window.cpp
+    PanelDock* addDock(const QString& title, const QString& name, QWidget* widget);
+    void addDocks();
+    void arrange();
+    void readSettings();
+    void writeSettings();
+    void updateDockTitles();
+    // main_window_actions.cpp
+    QAction* addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys, std::function<void()> run);
+    void addMenus();
+    void addToolBar();
+    void updateActions();
+    void toggleLog();
+    void focusSelection();
+    void setTheme(ThemeKind kind);
+    void openImageDialog();
+    void saveImageDialog();
+    // main_window_states.cpp
+    void connectSession();
+    void showStates();
+    void showBusy();
+    void showFailure(FailedTask task, const QString& sentence);
+
+    client::Dataset& dataset_;
+    client::Selection& selection_;
+    SessionController& session_;
+    Theme& theme_;
+    QSettings& settings_;
+    Views views_;
+    std::map<QString, PanelDock*> docks_;
+    std::map<QString, QAction*> actions_;
+    std::vector<std::pair<QWidget*, StateOverlay*>> busy_;
+    Toast* toast_ = nullptr;
+    ConnectPanel* connectPanel_ = nullptr;
+    StatusStrip* status_ = nullptr;
+    SampleBox* samples_ = nullptr;
+    QToolButton* connectButton_ = nullptr;
+    bool arranged_ = false, samplesTyped_ = false;
+    SelectionUndo undo_;
+    DatasetListening datasetListening_;
+    SelectionListening selectionListening_;
+};
+
+}  // namespace emca::explorer

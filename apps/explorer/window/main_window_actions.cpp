@@ -1,0 +1,161 @@
+// Menus, toolbar and keys of MainWindow.
+#include <QActionGroup>
+#include <QApplication>
+#include <QFileDialog>
+#include <QMenuBar>
+#include <QSignalBlocker>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "base/theme.h"
+#include "image/image_controls.h"
+#include "image/image_view.h"
+#include "scene/scene_view.h"
+#include "window/connect_panel.h"
+#include "window/main_window.h"
+#include "window/panel_dock.h"
+#include "window/sample_box.h"
+#include "window/selection_steps.h"
+
+namespace emca::explorer {
+
+QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys,
+                               std::function<void()> run) {
+    auto* made = new QAction(text, this);
+    made->setObjectName(name);
+    made->setShortcut(keys);
+    made->setShortcutContext(Qt::WindowShortcut);
+    connect(made, &QAction::triggered, this, [run = std::move(run)] { run(); });
+    menu->addAction(made);
+    actions_[name] = made;
+    return made;
+}
+
+void MainWindow::addMenus() {
+    QMenu* file = menuBar()->addMenu(tr("&File"));
+    addAction(file, "openImage", tr("Open image…"), QKeySequence::Open, [this] { openImageDialog(); });
+    addAction(file, "saveImage", tr("Save image…"), QKeySequence::Save, [this] { saveImageDialog(); });
+    file->addSeparator();
+    addAction(file, "quit", tr("Quit"), QKeySequence::Quit, [this] { close(); });
+
+    QMenu* renderer = menuBar()->addMenu(tr("&Renderer"));
+    addAction(renderer, "connect", tr("Connect…"), QKeySequence("Ctrl+K"), [this] { connectPanel_->openBelow(connectButton_); });
+    addAction(renderer, "disconnect", tr("Disconnect"), {}, [this] { session_.disconnectFromRenderer(); });
+    renderer->addSeparator();
+    addAction(renderer, "render", tr("Render"), QKeySequence("Ctrl+R"), [this] { render(); });
+    addAction(renderer, "cancel", tr("Cancel render"), QKeySequence("Ctrl+."), [this] { session_.cancelRender(); });
+    QAction* automatic = addAction(renderer, "renderOnConnect", tr("Render when connected"), {}, [] {});
+    automatic->setCheckable(true);
+    connect(automatic, &QAction::toggled, this, [this](bool on) { session_.setRenderOnConnect(on); });
+    renderer->addSeparator();
+    addAction(renderer, "traceAgain", tr("Trace pixel again"), QKeySequence("T"), [this] { session_.traceAgain(); });
+    addAction(renderer, "reloadScene", tr("Reload the scene"), {}, [this] { session_.reloadScene(); });
+
+    QMenu* selection = menuBar()->addMenu(tr("&Selection"));
+    addAction(selection, "previousPath", tr("Previous path"), QKeySequence("["), [this] { stepPath(dataset_, selection_, -1); });
+    addAction(selection, "nextPath", tr("Next path"), QKeySequence("]"), [this] { stepPath(dataset_, selection_, +1); });
+    addAction(selection, "previousVertex", tr("Previous vertex"), QKeySequence(","), [this] { stepVertex(dataset_, selection_, -1); });
+    addAction(selection, "nextVertex", tr("Next vertex"), QKeySequence("."), [this] { stepVertex(dataset_, selection_, +1); });
+    selection->addSeparator();
+    addAction(selection, "focus", tr("Focus on the selection"), QKeySequence("F"), [this] { focusSelection(); });
+    addAction(selection, "clear", tr("Clear"), QKeySequence("Esc"), [this] {
+        if (selection_.state().vertex) selection_.clearVertex();
+        else selection_.clearPaths();
+    });
+    addAction(selection, "undo", tr("Undo"), QKeySequence::Undo, [this] { undo_.undo(); });
+    addAction(selection, "redo", tr("Redo"), QKeySequence("Ctrl+Shift+Z"), [this] { undo_.redo(); });
+
+    QMenu* view = menuBar()->addMenu(tr("&View"));
+    addAction(view, "log", tr("Logarithmic scale"), QKeySequence("L"), [this] { toggleLog(); });
+    addAction(view, "falseColor", tr("False colour"), QKeySequence("C"), [this] { views_.image->controls().toggleFalseColor(); });
+    addAction(view, "nextInvalid", tr("Next NaN, infinite or negative pixel"), QKeySequence("N"), [this] { views_.image->goToNextInvalid(); });
+    view->addSeparator();
+    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "history", "sceneOptions"})
+        if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
+    for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
+    addAction(view, "resetLayout", tr("Reset layout"), {}, [this] { resetLayout(); });
+    view->addSeparator();
+    addAction(view, "theme", tr("Light theme"), QKeySequence("Ctrl+T"), [this] { setTheme(theme_.isDark() ? ThemeKind::light : ThemeKind::dark); });
+}
+
+void MainWindow::addToolBar() {
+    QToolBar* bar = QMainWindow::addToolBar(tr("Renderer"));
+    bar->setObjectName("toolBar");
+    bar->setMovable(false);
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    connectButton_ = new QToolButton;
+    connectButton_->setObjectName("connectButton");
+    connectButton_->setText(tr("Connect…"));
+    connect(connectButton_, &QToolButton::clicked, this, [this] { connectPanel_->openBelow(connectButton_); });
+    bar->addWidget(connectButton_);
+    bar->addSeparator();
+    bar->addAction(action("render"));
+    samples_->setFont(theme_.numberFont());
+    samples_->setFixedWidth(104);
+    samples_->setFocusPolicy(Qt::ClickFocus);
+    bar->addWidget(samples_);
+    bar->addAction(action("cancel"));
+    bar->addSeparator();
+    bar->addAction(action("openImage"));
+    bar->addAction(action("saveImage"));
+    bar->addSeparator();
+    for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex", "focus"}) bar->addAction(action(name));
+    auto* space = new QWidget;
+    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    bar->addWidget(space);
+    bar->addAction(action("theme"));
+    connect(connectPanel_, &ConnectPanel::connectWanted, this, &MainWindow::connectTo);
+    connect(samples_, qOverload<int>(&QSpinBox::valueChanged), this, [this] { samplesTyped_ = samples_->hasFocus() || samplesTyped_; });
+}
+
+void MainWindow::updateActions() {
+    const bool connected = session_.link() == LinkState::connected, paths = !dataset_.paths().empty();
+    action("disconnect")->setEnabled(session_.link() != LinkState::offline);
+    action("render")->setEnabled(connected);
+    action("cancel")->setEnabled(session_.isRendering());
+    action("traceAgain")->setEnabled(connected && selection_.state().pixel.has_value());
+    action("reloadScene")->setEnabled(connected);
+    action("saveImage")->setEnabled(dataset_.currentImage() != nullptr);
+    for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex"}) action(name)->setEnabled(paths);
+    action("undo")->setEnabled(undo_.canUndo());
+    action("redo")->setEnabled(undo_.canRedo());
+    connectButton_->setText(connected ? tr("Connected") : tr("Connect…"));
+}
+
+void MainWindow::toggleLog() {
+    // The view that has the focus knows best; the visible plots are what a person means otherwise.
+    if (views_.image->isAncestorOf(QApplication::focusWidget())) {
+        views_.image->toggleLog();
+        return;
+    }
+    for (const Views::Plot& plot : views_.plots)
+        if (!plot.widget->visibleRegion().isEmpty()) QMetaObject::invokeMethod(plot.widget, "toggleLog");
+}
+
+void MainWindow::focusSelection() {
+    if (views_.image->isAncestorOf(QApplication::focusWidget())) views_.image->focusSelection();
+    else views_.scene->focusSelection();
+}
+
+void MainWindow::setTheme(ThemeKind kind) {
+    theme_.setKind(kind);
+    action("theme")->setText(theme_.isDark() ? tr("Light theme") : tr("Dark theme"));
+}
+
+void MainWindow::openImageDialog() {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open image"), settings_.value("folder").toString(),
+                                                      tr("Images (*.exr *.pfm *.hdr *.png *.tif *.tiff *.jpg);;All files (*)"));
+    if (file.isEmpty()) return;
+    settings_.setValue("folder", QFileInfo(file).absolutePath());
+    session_.openImage(file);
+}
+
+void MainWindow::saveImageDialog() {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Save image"), settings_.value("folder").toString(),
+                                                      tr("OpenEXR (*.exr);;PFM (*.pfm);;Radiance HDR (*.hdr);;PNG (*.png)"));
+    if (file.isEmpty()) return;
+    settings_.setValue("folder", QFileInfo(file).absolutePath());
+    session_.saveImage(QFileInfo(file).suffix().isEmpty() ? file + ".exr" : file);
+}
+
+}  // namespace emca::explorer

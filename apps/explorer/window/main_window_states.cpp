@@ -1,0 +1,95 @@
+// What MainWindow says while there is nothing to show, while something runs, and when something failed.
+#include "base/qt_compat.h"
+#include "base/state_overlay.h"
+#include "emca/analysis/format.h"
+#include "image/image_view.h"
+#include "paths/path_tree.h"
+#include "scene/scene_view.h"
+#include "window/connect_panel.h"
+#include "window/history_view.h"
+#include "window/main_window.h"
+#include "window/status_strip.h"
+#include "window/toast.h"
+
+#include <QToolButton>
+
+namespace emca::explorer {
+namespace {
+constexpr double kBusyAfterSeconds = 0.4;  // quicker replies replace the views without a flicker
+}
+
+void MainWindow::connectSession() {
+    connect(&session_, &SessionController::linkChanged, this, [this] {
+        if (session_.link() == LinkState::connected) toast_->clear();
+        showStates();
+        updateActions();
+    });
+    connect(&session_, &SessionController::activityChanged, this, [this] {
+        showBusy();
+        updateActions();
+    });
+    connect(&session_, &SessionController::failed, this, &MainWindow::showFailure);
+    connect(&session_, &SessionController::imageSaved, this, [this](const QString& file) { toast_->showRemark(tr("Saved %1").arg(file)); });
+    connect(views_.history, &HistoryView::traceChosen, &session_, &SessionController::showTrace);
+    connect(views_.history, &HistoryView::traceAgainWanted, &session_, &SessionController::traceAgain);
+    connect(views_.image, &ImageView::traceAgainWanted, &session_, &SessionController::traceAgain);
+    connect(views_.scene, &SceneView::connectRequested, this, [this] { connectPanel_->openBelow(connectButton_); });
+    std::vector<QWidget*> pathViews{views_.paths, views_.scene};
+    for (const Views::Plot& plot : views_.plots) pathViews.push_back(plot.widget);
+    for (QWidget* view : pathViews) busy_.push_back({view, new StateOverlay(theme_, view)});
+}
+
+void MainWindow::showStates() {
+    StateOverlay& overlay = views_.image->overlay();
+    if (dataset_.currentImage()) {
+        overlay.clear();
+        return;
+    }
+    const auto openPanel = [this] { connectPanel_->openBelow(connectButton_); };
+    switch (session_.link()) {
+        case LinkState::offline:
+            overlay.showEmpty(tr("No image yet"), tr("Connect to a renderer, or drop an EXR, PFM, HDR or PNG file here."), tr("Connect…"), openPanel);
+            break;
+        case LinkState::connecting:
+            overlay.showBusy(tr("Connecting to %1").arg(toQString(session_.address().text())), -1, tr("Cancel"),
+                             [this] { session_.disconnectFromRenderer(); });
+            break;
+        case LinkState::reconnecting:
+            overlay.showError(tr("%1 went away. It will be connected again as soon as it answers.").arg(toQString(session_.address().text())),
+                              tr("Try now"), [this] { session_.retryNow(); });
+            break;
+        case LinkState::connected:
+            overlay.showEmpty(tr("Nothing rendered yet"), tr("Render the scene, or drop an image of it here."), tr("Render"), [this] { render(); });
+    }
+}
+
+void MainWindow::showBusy() {
+    const bool busy = session_.isTracing() && session_.traceSeconds() > kBusyAfterSeconds && session_.tracedPixel();
+    for (const auto& [view, overlay] : busy_) {
+        if (busy) {
+            overlay->showBusy(tr("Tracing pixel %1").arg(toQString(analysis::formatPixel(*session_.tracedPixel()))), session_.traceFraction(),
+                              tr("Cancel"), [this] { session_.cancelTrace(); });
+        } else if (overlay->isVisibleTo(view)) {
+            overlay->clear();
+        }
+    }
+}
+
+void MainWindow::showFailure(FailedTask task, const QString& sentence) {
+    switch (task) {
+        case FailedTask::connect:
+            toast_->showError(sentence, tr("Try again"), [this] { session_.retryNow(); });
+            break;
+        case FailedTask::trace:
+            if (session_.link() == LinkState::offline) toast_->showError(sentence, tr("Connect…"), [this] { connectPanel_->openBelow(connectButton_); });
+            else toast_->showError(sentence, tr("Trace again"), [this] { session_.traceAgain(); });
+            break;
+        case FailedTask::render: toast_->showError(sentence, tr("Render again"), [this] { render(); }); break;
+        case FailedTask::scene: toast_->showError(sentence, tr("Load again"), [this] { session_.reloadScene(); }); break;
+        case FailedTask::openImage: toast_->showError(sentence, tr("Open another…"), [this] { openImageDialog(); }); break;
+        case FailedTask::saveImage: toast_->showError(sentence, tr("Save elsewhere…"), [this] { saveImageDialog(); }); break;
+    }
+    showStates();
+}
+
+}  // namespace emca::explorer

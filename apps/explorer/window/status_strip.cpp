@@ -1,0 +1,164 @@
+#include "window/status_strip.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QProgressBar>
+#include <QStyle>
+#include <QToolButton>
+#include <QVariant>
+
+#include "base/qt_compat.h"
+#include "base/theme.h"
+#include "emca/analysis/format.h"
+#include "session/session_controller.h"
+
+namespace emca::explorer {
+namespace {
+
+constexpr double kShowTraceAfterSeconds = 0.25;  // shorter traces would only flicker
+
+struct Badge {
+    QString text;
+    const char* tone;
+    QString tip;
+};
+
+Badge badgeOf(const client::Trace& trace) {
+    if (trace.replays.empty()) return {QObject::tr("replay unknown"), "neutral", {}};
+    const Replay& replay = trace.replays.front();
+    const QString colors = QObject::tr("Rendered %1, replayed %2.")
+                               .arg(toQString(analysis::formatColor(replay.rendered)), toQString(analysis::formatColor(replay.replayed)));
+    const QString sums = replay.sums == SumCheck::differs
+                             ? QObject::tr(" The recorded estimates do not add up to the pixel: the renderer records only a part.")
+                             : QString();
+    switch (replay.verdict) {
+        case Verdict::exact:
+            return {QObject::tr("replay exact"), replay.sums == SumCheck::differs ? "warning" : "success",
+                    QObject::tr("The replayed pixel has the same bits as the image. ") + colors + sums};
+        case Verdict::close: return {QObject::tr("replay close"), "warning", QObject::tr("Equal to 1e-4. ") + colors + sums};
+        case Verdict::different:
+            return {QObject::tr("replay differs"), "error", QObject::tr("These are not the paths that made the image. ") + colors + sums};
+        case Verdict::unknown: break;
+    }
+    return {QObject::tr("replay unknown"), "neutral", QObject::tr("There is no image to compare with.") + sums};
+}
+
+}  // namespace
+
+StatusStrip::StatusStrip(client::Dataset& dataset, SessionController& session, Theme& theme, QWidget* parent)
+    : QWidget(parent), dataset_(dataset), session_(session), theme_(theme), link_(new QLabel), activity_(new QLabel),
+      progress_(new QProgressBar), cancel_(new QToolButton), last_(new QLabel), samples_(new QLabel), verdict_(new QLabel) {
+    auto* layout = new QHBoxLayout(this);
+    layout->setContentsMargins(26, 0, Spacing::small, 0);
+    layout->setSpacing(Spacing::large);
+    layout->addWidget(link_);
+    layout->addStretch(1);
+    layout->addWidget(activity_);
+    layout->addWidget(progress_);
+    layout->addWidget(cancel_);
+    layout->addWidget(last_);
+    layout->addWidget(samples_);
+    layout->addWidget(verdict_);
+    progress_->setFixedSize(160, 8);
+    progress_->setTextVisible(false);
+    progress_->setRange(0, 1000);
+    cancel_->setText(tr("Cancel"));
+    verdict_->setProperty("role", "badge");
+    verdict_->setObjectName("verdict");
+    link_->setObjectName("link");
+    for (QLabel* label : {activity_, last_, samples_}) {
+        label->setFont(theme.numberFont());
+        label->setProperty("role", "muted");
+    }
+    connect(cancel_, &QToolButton::clicked, this, [this] {
+        if (session_.isTracing()) session_.cancelTrace();
+        else session_.cancelRender();
+    });
+    connect(&session, &SessionController::linkChanged, this, &StatusStrip::refresh);
+    connect(&session, &SessionController::activityChanged, this, &StatusStrip::showActivity);
+    connect(&theme, &Theme::themeChanged, this, qOverload<>(&QWidget::update));
+    refresh();
+}
+
+void StatusStrip::refresh() {
+    showLink();
+    showActivity();
+    showReplay();
+    update();
+}
+
+void StatusStrip::showLink() {
+    const QString where = toQString(session_.address().text());
+    switch (session_.link()) {
+        case LinkState::offline: link_->setText(tr("Not connected")); break;
+        case LinkState::connecting: link_->setText(tr("Connecting to %1 …").arg(where)); break;
+        case LinkState::reconnecting: link_->setText(tr("%1 went away; trying again …").arg(where)); break;
+        case LinkState::connected: {
+            QStringList parts{where};
+            if (dataset_.info()) parts << toQString(dataset_.info()->renderer) << toQString(dataset_.info()->scene);
+            parts.removeAll(QString());
+            link_->setText(parts.join(QStringLiteral("  ·  ")));
+        }
+    }
+}
+
+void StatusStrip::showActivity() {
+    QString text;
+    double fraction = -1;
+    bool cancellable = true;
+    if (session_.isTracing() && session_.traceSeconds() > kShowTraceAfterSeconds) {
+        text = tr("Tracing pixel %1").arg(toQString(analysis::formatPixel(*session_.tracedPixel())));
+        fraction = session_.traceFraction();
+    } else if (session_.isRendering()) {
+        fraction = session_.renderFraction();
+        text = fraction >= 0 ? tr("Rendering %1 %").arg(static_cast<int>(fraction * 100), 3) : tr("Rendering");
+    } else if (session_.isReadingFile()) {
+        text = tr("Reading the image");
+        cancellable = false;
+    } else if (session_.isLoadingScene()) {
+        text = tr("Loading the scene");
+        fraction = session_.sceneFraction();
+        cancellable = false;
+    }
+    const bool busy = !text.isEmpty();
+    activity_->setText(text);
+    activity_->setVisible(busy);
+    progress_->setVisible(busy);
+    cancel_->setVisible(busy && cancellable);
+    progress_->setRange(0, fraction < 0 ? 0 : 1000);
+    progress_->setValue(static_cast<int>(fraction * 1000));
+    last_->setVisible(!busy);
+    last_->setText(session_.lastRequest());
+}
+
+void StatusStrip::showReplay() {
+    const bool any = dataset_.current().size() == 1;
+    samples_->setVisible(any);
+    verdict_->setVisible(any);
+    if (!any) return;
+    const client::Trace& trace = *dataset_.current().front();
+    samples_->setText(tr("%1 spp").arg(trace.samplesPerPixel));
+    const Badge badge = badgeOf(trace);
+    verdict_->setText(badge.text);
+    verdict_->setToolTip(badge.tip);
+    if (verdict_->property("tone") != QVariant(badge.tone)) {
+        verdict_->setProperty("tone", badge.tone);
+        verdict_->style()->unpolish(verdict_);
+        verdict_->style()->polish(verdict_);
+    }
+}
+
+void StatusStrip::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const ThemeColors& c = theme_.colors();
+    QColor color = c.mutedText;
+    if (session_.link() == LinkState::connected) color = c.success;
+    else if (session_.link() != LinkState::offline) color = c.warning;
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(color);
+    painter.drawEllipse(QPointF(15, height() / 2.0), 4, 4);
+}
+
+}  // namespace emca::explorer

@@ -1,0 +1,31 @@
+#include "window/views.h"
+
+#include <QScrollArea>
+
+#include "base/theme.h"
+#include "image/image_view.h"
+#include "paths/path_tree.h"
+#include "scene/scene_options_panel.h"
+#include "scene/scene_view.h"
+#include "window/history_view.h"
+#include "window/vertex_view.h"
+
+namespace emca::explorer {
+
+Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme& theme) {
+    Views views;
+    views.image = new ImageView(dataset, selection, theme);
+    views.scene = new SceneView(dataset, selection, theme);
+    auto* scroll = new QScrollArea;
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setWidget(new SceneOptionsPanel(*views.scene, theme));
+    views.sceneOptions = scroll;
+    views.paths = new PathTree(dataset, selection, theme);
+    views.vertex = new VertexView(dataset, selection, theme);
+    views.history = new HistoryView(dataset, selection, theme);
+    return views;
+}
+
+}  // namespace emca::explorer

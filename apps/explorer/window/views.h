@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QString>
+#include <QWidget>
+#include <vector>
+
+#include "emca/client/dataset.h"
+#include "emca/client/selection.h"
+
+namespace emca::explorer {
+
+class HistoryView;
+class ImageView;
+class OutlierPanel;
+class PathTree;
+class SceneView;
+class Theme;
+class VertexView;
+
+/// Every view of the window, made once; the docks own them.
+struct Views {
+    struct Plot {
+        QString title, name;      ///< for people; for the saved layout
+        QWidget* widget;
+    };
+    ImageView* image = nullptr;
+    SceneView* scene = nullptr;
+    QWidget* sceneOptions = nullptr;
+    PathTree* paths = nullptr;
+    VertexView* vertex = nullptr;
+    HistoryView* history = nullptr;
+    QWidget* outliers = nullptr;
+    std::vector<Plot> plots;
+
+    static Views make(client::Dataset& dataset, client::Selection& selection, Theme& theme);
+};
+
+}  // namespace emca::explorer
