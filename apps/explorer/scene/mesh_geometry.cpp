@@ -1,0 +1,192 @@
+#include "mesh_geometry.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace emca::explorer {
+namespace {
+
+struct PositionHash {
+    std::size_t operator()(const Vec3f& p) const {
+        // Adding 0 makes -0 and 0 equal in bits, as they are by ==.
+        std::uint64_t h = std::bit_cast<std::uint32_t>(p.x + 0.f);
+        h = h * 0x9e3779b97f4a7c15ull ^ std::bit_cast<std::uint32_t>(p.y + 0.f);
+        h = h * 0x9e3779b97f4a7c15ull ^ std::bit_cast<std::uint32_t>(p.z + 0.f);
+        return static_cast<std::size_t>(h ^ (h >> 29));
+    }
+};
+
+/// One mesh with equal positions joined, and the faces around each.
+struct Welded {
+    std::vector<Vec3f> positions;
+    std::vector<Triangle> triangles;
+    std::vector<Vec3f> faceNormals;          ///< length: twice the area
+    std::vector<std::uint32_t> firstFace;    ///< per position + 1, into `faces`
+    std::vector<std::uint32_t> faces;
+};
+
+Welded weld(const Mesh& mesh, std::uint64_t& skipped) {
+    Welded w;
+    std::vector<std::uint32_t> welded(mesh.positions.size());
+    std::unordered_map<Vec3f, std::uint32_t, PositionHash> places;
+    places.reserve(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (!isFinite(mesh.positions[i])) continue;
+        const auto [place, isNew] = places.try_emplace(mesh.positions[i], static_cast<std::uint32_t>(w.positions.size()));
+        if (isNew) w.positions.push_back(mesh.positions[i]);
+        welded[i] = place->second;
+    }
+    w.triangles.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        const std::size_t n = mesh.positions.size();
+        if (t[0] >= n || t[1] >= n || t[2] >= n || !isFinite(mesh.positions[t[0]]) || !isFinite(mesh.positions[t[1]]) ||
+            !isFinite(mesh.positions[t[2]])) {
+            ++skipped;
+            continue;
+        }
+        const Triangle joined{welded[t[0]], welded[t[1]], welded[t[2]]};
+        if (joined[0] == joined[1] || joined[1] == joined[2] || joined[2] == joined[0]) continue;  // no area, no harm
+        w.triangles.push_back(joined);
+        const Vec3f a = w.positions[joined[0]];
+        w.faceNormals.push_back(cross(w.positions[joined[1]] - a, w.positions[joined[2]] - a));
+    }
+    w.firstFace.assign(w.positions.size() + 1, 0);
+    for (const Triangle& t : w.triangles)
+        for (const std::uint32_t v : t) ++w.firstFace[v + 1];
+    for (std::size_t v = 0; v < w.positions.size(); ++v) w.firstFace[v + 1] += w.firstFace[v];
+    w.faces.resize(w.firstFace.back());
+    std::vector<std::uint32_t> cursor(w.firstFace.begin(), w.firstFace.end() - 1);
+    for (std::uint32_t f = 0; f < w.triangles.size(); ++f)
+        for (const std::uint32_t v : w.triangles[f]) w.faces[cursor[v]++] = f;
+    return w;
+}
+
+bool smoothTogether(Vec3f a, Vec3f b) {
+    static const float kCosine = std::cos(kCreaseDegrees * std::numbers::pi_v<float> / 180);
+    return dot(a, b) >= kCosine * std::sqrt(dot(a, a) * dot(b, b));
+}
+
+/// Area-weighted mean of the normals around a corner that are on the corner's side of all creases.
+Vec3f cornerNormal(const Welded& w, std::uint32_t vertex, std::uint32_t face) {
+    Vec3f sum;
+    for (std::uint32_t i = w.firstFace[vertex]; i < w.firstFace[vertex + 1]; ++i) {
+        const Vec3f n = w.faceNormals[w.faces[i]];
+        if (w.faces[i] == face || smoothTogether(w.faceNormals[face], n)) sum += n;
+    }
+    return normalize(sum);
+}
+
+void append(const Welded& w, std::array<std::uint8_t, 3> color, ShadedTriangles& out) {
+    // A position gets one output vertex per different normal: `next` chains those of one position.
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> head(w.positions.size(), kNone), next;
+    const auto base = static_cast<std::uint32_t>(out.positions.size());
+    for (std::uint32_t f = 0; f < w.triangles.size(); ++f) {
+        Triangle made{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t v = w.triangles[f][c];
+            const Vec3f n = cornerNormal(w, v, f);
+            std::uint32_t found = head[v];
+            while (found != kNone && !(out.normals[base + found] == n)) found = next[found];
+            if (found == kNone) {
+                found = static_cast<std::uint32_t>(next.size());
+                next.push_back(head[v]);
+                head[v] = found;
+                out.positions.push_back(w.positions[v]);
+                out.normals.push_back(n);
+                out.colors.push_back(color);
+            }
+            made[c] = base + found;
+        }
+        out.triangles.push_back(made);
+    }
+}
+
+/// Borders and creases.
+void appendEdges(const Welded& w, std::vector<Edge>& out) {
+    struct Side { std::uint64_t key; std::uint32_t face; };
+    std::vector<Side> sides;
+    sides.reserve(3 * w.triangles.size());
+    for (std::uint32_t f = 0; f < w.triangles.size(); ++f)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint64_t a = w.triangles[f][c], b = w.triangles[f][(c + 1) % 3];
+            sides.push_back({std::min(a, b) << 32 | std::max(a, b), f});
+        }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key < b.key; });
+    for (std::size_t i = 0; i < sides.size();) {
+        std::size_t end = i + 1;
+        while (end < sides.size() && sides[end].key == sides[i].key) ++end;
+        const bool border = end - i == 1;
+        if (border || (end - i == 2 && !smoothTogether(w.faceNormals[sides[i].face], w.faceNormals[sides[i + 1].face])))
+            out.push_back({w.positions[sides[i].key >> 32], w.positions[sides[i].key & 0xffffffffu]});
+        i = end;
+    }
+}
+
+void keepLongest(std::vector<Edge>& edges) {
+    if (edges.size() <= kMaximumEdges) return;
+    std::nth_element(edges.begin(), edges.begin() + kMaximumEdges, edges.end(), [](const Edge& a, const Edge& b) {
+        return dot(a.to - a.from, a.to - a.from) > dot(b.to - b.from, b.to - b.from);
+    });
+    edges.resize(kMaximumEdges);
+}
+
+float srgb(float linear) {
+    linear = std::clamp(linear, 0.f, 1.f);
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+/// Hue of what it emits, at full brightness and a third of its saturation.
+std::array<std::uint8_t, 3> glowColor(Color emission) {
+    const float peak = maxComponent(emission);
+    std::array<std::uint8_t, 3> out{255, 244, 214};
+    if (!isFinite(emission) || !(peak > 0)) return out;
+    const float channels[3] = {emission.r, emission.g, emission.b};
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = static_cast<std::uint8_t>(std::lround(255 * (0.6f + 0.4f * srgb(channels[i] / peak))));
+    return out;
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 3> clayColor(Color diffuse, std::array<std::uint8_t, 3> base) {
+    if (!isFinite(diffuse)) return base;
+    const Color c{srgb(diffuse.r), srgb(diffuse.g), srgb(diffuse.b)};
+    const float grey = luminance(c), clay = luminance(Color{float(base[0]), float(base[1]), float(base[2])}) / 255;
+    // Lightness moves only a little around that of the clay, so that black objects keep their form.
+    const float level = std::clamp(clay + 0.45f * (grey - 0.6f), 0.6f * clay, std::min(1.25f * clay, 0.95f));
+    std::array<std::uint8_t, 3> out{};
+    const float channels[3] = {c.r, c.g, c.b};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float tint = float(base[i]) / 255 - clay;
+        const float value = level + tint + 0.5f * (channels[i] - grey);
+        out[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.f, 1.f)));
+    }
+    return out;
+}
+
+MeshGeometry makeMeshGeometry(std::span<const Mesh> meshes, std::array<std::uint8_t, 3> base,
+                              const std::atomic<bool>* cancel) {
+    MeshGeometry g;
+    for (const Mesh& mesh : meshes) {
+        if (cancel && *cancel) return g;
+        const Welded w = weld(mesh, g.skippedTriangles);
+        for (const Vec3f& p : w.positions) g.box.extend(p);
+        if (mesh.isEmitter()) {
+            append(w, glowColor(mesh.emission), g.emitters);
+            appendEdges(w, g.emitterEdges);
+        } else {
+            append(w, clayColor(mesh.diffuse, base), g.surfaces);
+            appendEdges(w, g.edges);
+            if (g.edges.size() > 4 * kMaximumEdges) keepLongest(g.edges);
+        }
+    }
+    keepLongest(g.edges);
+    keepLongest(g.emitterEdges);
+    return g;
+}
+
+}  // namespace emca::explorer

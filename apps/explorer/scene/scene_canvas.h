@@ -1,0 +1,69 @@
+#pragma once
+
+#include <QImage>
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkNew.h>
+
+#include <functional>
+
+#include "base/theme.h"
+#include "emca/core/mesh.h"
+#include "view_pose.h"
+
+class vtkRenderer;
+
+namespace emca::explorer {
+
+/// The OpenGL surface of the 3D view: two layers with one camera. Surfaces lie below; strokes are drawn over them with
+/// the depth of what is opaque, so that translucent walls never tint the data. Renders when Qt paints, at most once per
+/// turn of the event loop. Takes no input itself.
+class SceneCanvas : public QVTKOpenGLNativeWidget {
+    Q_OBJECT
+  public:
+    SceneCanvas(Theme& theme, QWidget* parent);
+    ~SceneCanvas() override;
+
+    vtkRenderer& surfaces() { return *surfaces_; }
+    vtkRenderer& strokes() { return *strokes_; }
+
+    const ViewPose& pose() const { return pose_; }
+    void setPose(const ViewPose& pose);
+    /// What has to fit between the near and the far plane.
+    void setExtent(Vec3d centre, double radius);
+    Viewport viewport() const { return {std::max(width(), 1), std::max(height(), 1)}; }
+    /// Device pixels per pixel, larger while an enlarged picture is made.
+    float pixelScale() const { return pixelScale_; }
+    double nearPlane() const { return near_; }
+    double farPlane() const { return far_; }
+
+    void requestRender();
+    /// The picture at any size, without overlays; line widths grow with its height. Empty without OpenGL.
+    QImage renderImage(QSize size);
+    /// Duration of the last frame with everything drawn, in seconds.
+    double lastFrameSeconds() const { return frameSeconds_; }
+
+  signals:
+    void poseChanged();
+    /// Comes before each frame: the last chance to set uniforms.
+    void aboutToRender();
+
+  protected:
+    void initializeGL() override;
+    void paintGL() override;
+
+  private:
+    void applyPose();
+    void restyle();
+
+    Theme& theme_;
+    vtkNew<vtkRenderer> surfaces_, strokes_;
+    ViewPose pose_;
+    Vec3d extentCentre_;
+    double extentRadius_ = 1;
+    double near_ = 0.01, far_ = 100;
+    float pixelScale_ = 1;
+    double frameSeconds_ = 0;
+    bool dirty_ = true;
+};
+
+}  // namespace emca::explorer

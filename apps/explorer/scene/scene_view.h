@@ -1,0 +1,73 @@
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+
+#include <memory>
+#include <optional>
+
+#include "base/theme.h"
+#include "emca/client/dataset.h"
+#include "emca/client/selection.h"
+#include "emca/core/result.h"
+#include "scene_options.h"
+#include "view_pose.h"
+
+namespace emca::explorer {
+
+/// Sets the surface format that the 3D view needs. Call it before the QApplication is made.
+void prepareOpenGl();
+/// Whether an OpenGL 3.2 context can be made here; asked once, then remembered. Needs a QGuiApplication.
+bool hasOpenGl();
+
+/// The scene in 3D with the recorded paths of the current pixels: reads Dataset and Selection, writes the Selection.
+/// Left drag orbits, middle or shift-left drag pans, right drag and wheel zoom, arrow keys fly. Click selects a vertex
+/// or a path, ctrl-click and shift-click add to the selection, `R` drags a rectangle, `F` focuses on the selection,
+/// Home is the renderer's camera, Backspace the view before. Without OpenGL it is a placeholder that says so.
+/// GUI thread.
+class SceneView : public QWidget {
+    Q_OBJECT
+  public:
+    SceneView(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent = nullptr);
+    ~SceneView() override;
+
+    const SceneOptions& options() const;
+    void setOptions(const SceneOptions& options);
+
+    /// Where the view looks from; at the end of a flight, if one is under way.
+    ViewPose pose() const;
+    void setPose(const ViewPose& pose);
+
+    /// Pixel of the view at which a vertex is drawn; nothing if it is not loaded, has no place or is behind the eye.
+    std::optional<QPointF> screenPosition(const client::VertexId& vertex) const;
+    /// The picture with labels and legend at any size. Empty without OpenGL.
+    QImage renderImage(QSize size);
+    /// Writes a PNG. Errors: notSupported (no OpenGL), invalidArgument (size), fileUnwritable.
+    Result<void> saveImage(const QString& file, QSize size);
+
+    bool isLoading() const;             ///< meshes are being prepared
+    double lastFrameSeconds() const;    ///< time that the last frame took to draw; 0 without OpenGL
+    bool isMoving() const;              ///< a flight or a key that is held
+
+  public slots:
+    void resetCamera();                 ///< to the renderer's camera
+    void focusSelection();              ///< the current vertex, else the selected paths, else the whole scene
+    void back();
+    void setRectangleMode(bool on);
+
+  signals:
+    void optionsChanged();
+    void rectangleModeChanged(bool on);
+    void poseChanged();
+    /// The button of the empty state: somebody wants to connect.
+    void connectRequested();
+
+  protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace emca::explorer

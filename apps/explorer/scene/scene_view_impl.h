@@ -1,0 +1,107 @@
+#pragma once
+
+#include <QTimer>
+
+#include <memory>
+#include <optional>
+
+#include "base/listeners.h"
+#include "camera_driver.h"
+#include "glyph_layer.h"
+#include "mesh_layer.h"
+#include "mesh_loader.h"
+#include "path_layer.h"
+#include "scene_canvas.h"
+#include "scene_input.h"
+#include "scene_overlay.h"
+#include "scene_picker.h"
+#include "scene_view.h"
+
+namespace emca::explorer {
+
+class StateOverlay;
+
+/// What a SceneView is made of. scene_view.cpp: models, camera, options; scene_view_pointer.cpp: what the mouse means;
+/// scene_view_overlay.cpp: what is written over the picture.
+class SceneView::Impl {
+  public:
+    Impl(SceneView& owner, client::Dataset& data, client::Selection& sel, Theme& look);
+
+    void connectInput();
+    void listenTo() {
+        datasetListening.emplace(dataset, [this](std::uint32_t parts) { datasetChanged(parts); });
+        selectionListening.emplace(selection, [this](std::uint32_t parts) { selectionChanged(parts, true); });
+    }
+
+    // Models.
+    void datasetChanged(std::uint32_t parts);
+    void selectionChanged(std::uint32_t parts, bool fly);
+    void loadMeshes();
+    void meshesReady(const std::shared_ptr<PreparedMeshes>& prepared);
+    void rebuildPaths();
+    ShownSelection resolve() const;
+    BoundingBox box() const;
+    double imageAspect() const;
+
+    // Camera.
+    Viewport viewport() const;
+    Projection projection() const;
+    Vec3d pivot() const;
+    ViewPose homePose() const;
+    void goHome(bool immediate);
+    bool moved() const { return !atHome; }
+    void poseMoved(const ViewPose& pose);
+    void updateExtent();
+    void showPath(Index path, std::optional<Index> vertex, bool always);
+    void closeUp(Index vertex);
+    void setCoarse(bool coarse);
+    void prepareFrame();
+    void applyOptions();
+
+    // Pointer.
+    PickContext pickContext() const;
+    void click(QPointF at, Qt::KeyboardModifiers modifiers);
+    void focusAt(QPointF at);
+    void hover(std::optional<QPointF> at);
+    void selectInside(QRectF rectangle, Qt::KeyboardModifiers modifiers);
+    void menu(QPointF at, QPoint global);
+
+    // Overlay.
+    void updateState();
+    void updateOverlay();
+    OverlayContent overlayContent(Viewport size) const;
+
+    SceneView& view;
+    client::Dataset& dataset;
+    client::Selection& selection;
+    Theme& theme;
+    SceneOptions options;
+
+    CameraDriver driver;
+    MeshLoader loader;
+    QTimer settle;
+    StateOverlay* states;
+    SceneOverlay* overlay;
+    SceneCanvas* canvas = nullptr;        ///< null without OpenGL, as the layers are
+    SceneInput* input = nullptr;
+    std::unique_ptr<MeshLayer> meshes;
+    std::unique_ptr<GlyphLayer> glyphs;
+    std::unique_ptr<PathLayer> pathLayer;
+
+    PathSet paths;                        ///< shares its columns with the Dataset
+    PathGeometry geometry;
+    BoundingBox pathBox;
+    ShownSelection shown;
+    std::optional<Index> hovered;
+    std::optional<QPointF> cursor;
+    Vec3d extentCentre;
+    double extentRadius = 1;
+    bool atHome = true;                   ///< nobody has moved the camera yet
+    bool isCoarse = false;
+
+    // Last, so that no call arrives while the rest is being destroyed.
+    std::optional<DatasetListening> datasetListening;
+    std::optional<SelectionListening> selectionListening;
+};
+
+}  // namespace emca::explorer

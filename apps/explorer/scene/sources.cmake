@@ -1,0 +1,25 @@
+# The only folder that includes VTK; other folders include scene_view.h and scene_options_panel.h.
+set(EMCA_SCENE_SOURCES
+  scene/camera_driver.cpp scene/camera_driver.h
+  scene/glyph_layer.cpp scene/glyph_layer.h
+  scene/mesh_geometry.cpp scene/mesh_geometry.h
+  scene/mesh_layer.cpp scene/mesh_layer.h
+  scene/mesh_loader.cpp scene/mesh_loader.h
+  scene/open_gl.cpp
+  scene/path_geometry.cpp scene/path_geometry.h
+  scene/path_layer.cpp scene/path_layer.h
+  scene/picking.cpp scene/picking.h
+  scene/scene_canvas.cpp scene/scene_canvas.h
+  scene/scene_input.cpp scene/scene_input.h
+  scene/scene_options.h
+  scene/scene_options_panel.cpp scene/scene_options_panel.h
+  scene/scene_overlay.cpp scene/scene_overlay.h
+  scene/scene_picker.cpp scene/scene_picker.h
+  scene/scene_view.cpp scene/scene_view.h scene/scene_view_impl.h scene/scene_view_overlay.cpp scene/scene_view_pointer.cpp
+  scene/stroke.h
+  scene/stroke_layer.cpp scene/stroke_layer.h
+  scene/stroke_mapper.cpp scene/stroke_mapper.h
+  scene/vertex_card.cpp scene/vertex_card.h
+  scene/view_pose.cpp scene/view_pose.h)
+set(EMCA_SCENE_TESTS)
+set(EMCA_SCENE_GL_TESTS scene/scene_pictures_test.cpp scene/scene_test_data.cpp)
