@@ -288,6 +288,10 @@ TEST_F(ImageFiles, AFailedWriteLeavesTheOldFile) {
 TEST_F(ImageFiles, UnwritablePlaces) {
     const Image image(2, 2);
     EXPECT_EQ(write(file("none/a.exr"), image).error().code, ErrorCode::fileUnwritable);
+    EXPECT_EQ(checkWritable(file("none/a.exr")).error().code, ErrorCode::fileUnwritable);
+    EXPECT_EQ(checkWritable(file("a.jpg")).error().code, ErrorCode::notSupported);
+    EXPECT_TRUE(checkWritable(file("a.exr")).ok());
+    EXPECT_EQ(fileCount(), 0u);
     fs::create_directory(file("folder.exr"));
     EXPECT_EQ(write(file("folder.exr"), image).error().code, ErrorCode::fileUnwritable);
     fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);

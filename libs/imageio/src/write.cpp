@@ -1,12 +1,12 @@
 #include <OpenImageIO/imageio.h>
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <cmath>
 #include <exception>
+#include <fstream>
+#include <random>
 #include <set>
 
 #include "emca/imageio/imageio.h"
@@ -99,23 +99,43 @@ Writer writerFor(const fs::path& file) {
     return nullptr;
 }
 
-/// A name beside the file that no other writer uses at the same time.
+/// A name beside the file that no other thread or program uses at the same time.
 fs::path temporaryBeside(const fs::path& file) {
+    static const unsigned program = std::random_device()();
     static std::atomic<unsigned> counter{0};
-    return file.parent_path() / ("." + file.stem().string() + "." + std::to_string(::getpid()) + "-" +
-                                 std::to_string(counter++) + ".tmp" + file.extension().string());
+    return file.parent_path() / ("." + file.stem().string() + "." + std::to_string(program) + "-" + std::to_string(counter++) +
+                                 ".tmp" + file.extension().string());
+}
+
+Error unknownExtension(const fs::path& file) {
+    return {ErrorCode::notSupported, "The image " + file.string() + " has the extension \"" + file.extension().string() +
+                                         "\"; .exr, .pfm, .hdr and .png can be written."};
+}
+
+/// The file that is replaced: through a link to what it means; the link stays.
+fs::path targetOf(const fs::path& asked) {
+    std::error_code code;
+    return fs::is_symlink(asked, code) ? fs::weakly_canonical(asked, code) : asked;
+}
+
+Result<void> checkPlace(const fs::path& asked, const fs::path& target) {
+    std::error_code code;
+    const fs::file_status old = fs::status(target, code);
+    if (fs::exists(old) && !fs::is_regular_file(old)) return unwritable(asked, "there is something of that name that is not a file");
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, code)) return unwritable(asked, "there is no folder " + folder.string());
+    // Trying is the only answer that counts permissions, read-only file systems and full disks alike.
+    const fs::path probe = temporaryBeside(target);
+    const bool created = std::ofstream(probe, std::ios::binary).put('\n').flush().good();
+    fs::remove(probe, code);
+    return created ? Result<void>() : unwritable(asked, "the folder " + folder.string() + " does not allow it");
 }
 
 Result<void> writeAtomically(const fs::path& asked, const Image& image, Writer writer) {
+    const fs::path file = targetOf(asked);
+    if (Result<void> place = checkPlace(asked, file); !place) return place;
     std::error_code code;
-    // Through a link to what it means; the link stays.
-    const fs::path file = fs::is_symlink(asked, code) ? fs::weakly_canonical(asked, code) : asked;
     const fs::file_status old = fs::status(file, code);
-    if (fs::exists(old) && !fs::is_regular_file(old)) return unwritable(asked, "there is something of that name that is not a file");
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, code)) return unwritable(asked, "there is no folder " + folder.string());
-    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0) return unwritable(asked, "the folder " + folder.string() + " does not allow it");
-
     const fs::path temporary = temporaryBeside(file);
     Result<void> result = writer(temporary, image);
     if (result) {
@@ -135,11 +155,14 @@ Result<void> writeAtomically(const fs::path& asked, const Image& image, Writer w
 
 }  // namespace
 
+Result<void> checkWritable(const fs::path& file) {
+    if (!writerFor(file)) return unknownExtension(file);
+    return checkPlace(file, targetOf(file));
+}
+
 Result<void> write(const fs::path& file, const Image& image) {
     const Writer writer = writerFor(file);
-    if (!writer)
-        return Error{ErrorCode::notSupported, "The image " + file.string() + " has the extension \"" + file.extension().string() +
-                                                  "\"; .exr, .pfm, .hdr and .png can be written."};
+    if (!writer) return unknownExtension(file);
     if (image.empty()) return Error{ErrorCode::invalidArgument, "The image for " + file.string() + " has no pixels."};
     try {
         return writeAtomically(file, image, writer);

@@ -28,6 +28,10 @@ Result<Image> read(const std::filesystem::path& file);
 /// or with the same one).
 Result<void> write(const std::filesystem::path& file, const Image& image);
 
+/// What write() would say about the name, the folder and its permissions, before an image is there: ask before a long
+/// render. Leaves nothing behind. Errors: fileUnwritable, notSupported.
+Result<void> checkWritable(const std::filesystem::path& file);
+
 /// Renders as one EXR: R, G, B, and the channels "samples" and "variance.R", "variance.G", "variance.B"; other
 /// extensions get the colours alone.
 Result<void> write(const std::filesystem::path& file, const RenderedImage& image);
