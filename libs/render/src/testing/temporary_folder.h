@@ -29,6 +29,7 @@ class TemporaryFolder {
     std::filesystem::path write(const std::string& name, std::string_view content) const {
         const auto path = path_ / name;
         std::filesystem::create_directories(path.parent_path());
+        std::filesystem::remove(path);  // some file systems wait for the disk where a file is overwritten
         std::ofstream(path, std::ios::binary) << content;
         return path;
     }
