@@ -57,7 +57,6 @@ TEST(BsdfEnergy, LosslessSurfacesAreLossless) {
         {"diffuse", made(bsdfNode("diffuse", {{"reflectance", 1.0}})), false},
         {"plastic", made(bsdfNode("plastic", {{"diffuse_reflectance", 1.0}})), false},
         {"plastic nonlinear", made(bsdfNode("plastic", {{"diffuse_reflectance", 1.0}, {"nonlinear", true}})), false},
-        {"mask", made(bsdfNode("mask", {{"opacity", 0.3}}, {{"", bsdfNode("diffuse", {{"reflectance", 1.0}})}})), true},
         {"roughconductor, nearly smooth", made(bsdfNode("roughconductor", {{"material", none}, {"alpha", 0.001}})), false},
     };
     for (const BsdfCase& c : cases) {

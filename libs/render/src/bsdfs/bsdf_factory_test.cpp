@@ -136,25 +136,28 @@ TEST(BsdfFactory, LobesAreLabelled) {
     EXPECT_EQ(label(bsdfNode("roughplastic"), 0.99f), std::pair(Event::reflect, Lobe::diffuse));
     EXPECT_EQ(label(bsdfNode("roughdielectric"), 0.99f), std::pair(Event::transmit, Lobe::glossy));
     EXPECT_EQ(label(bsdfNode("thindielectric"), 0.99f), std::pair(Event::transmit, Lobe::straight));
-    EXPECT_EQ(label(bsdfNode("mask", {{"opacity", 0.5}}, {{"", bsdfNode("diffuse")}}), 0.99f), std::pair(Event::pass, Lobe::straight));
-    EXPECT_EQ(label(bsdfNode("mask", {{"opacity", 0.5}}, {{"", bsdfNode("diffuse")}}), 0.2f), std::pair(Event::reflect, Lobe::diffuse));
 }
 
-/// A mask weights both ways per channel, whatever the probability by which it chooses.
-TEST(BsdfFactory, MaskSharesLightByOpacity) {
-    const auto mask = made(bsdfNode("mask", {{"opacity", Color(1.f, 0.5f, 0.f)}}, {{"", bsdfNode("diffuse", {{"reflectance", 1.0}})}}));
-    const Vec3f up{0, 0, 1};
-    const float there = mask->opacity({});
-    const auto through = mask->sample({}, up, 0.9999f, {});
-    const auto met = mask->sample({}, up, 0.f, {0.4f, 0.4f});
-    ASSERT_TRUE(through && met);
-    EXPECT_NEAR(through->pdf, 1.f - there, 1e-6f);
-    EXPECT_NEAR(through->weight.r * (1.f - there), 0.f, 1e-6f);
-    EXPECT_NEAR(through->weight.g * (1.f - there), 0.5f, 1e-6f);
-    EXPECT_NEAR(met->weight.r * there, 1.f, 1e-6f);
-    EXPECT_NEAR(met->weight.g * there, 0.5f, 1e-6f);
-    EXPECT_EQ(through->wi, -up);
+/// The mask's share is in opacity() alone: what is there scatters as if there were no mask.
+TEST(BsdfFactory, MaskHasAnOpacity) {
+    const auto mask = made(bsdfNode("mask", {{"opacity", 0.3}}, {{"", bsdfNode("diffuse")}}));
+    EXPECT_FLOAT_EQ(mask->opacity({}), 0.3f);
+    EXPECT_EQ(reflected(*mask), reflected(*made(bsdfNode("diffuse"))));
+    EXPECT_EQ(made(bsdfNode("diffuse"))->opacity({}), 1.f);
     EXPECT_EQ(made(bsdfNode("mask", {{"opacity", 1.0}}, {{"", bsdfNode("diffuse")}}))->opacity({}), 1.f);
+    EXPECT_FLOAT_EQ(made(bsdfNode("twosided", {}, {{"", bsdfNode("diffuse")}}))->opacity({}), 1.f);
+
+    const auto board = node("texture", "checkerboard", {{"color0", Color(1.f)}, {"color1", Color(0.f)}});
+    const auto holes = made(bsdfNode("mask", {}, {{"opacity", board}, {"", bsdfNode("diffuse")}}));
+    SurfaceInteraction at;
+    at.uv = {0.25f, 0.25f};
+    EXPECT_EQ(holes->opacity(at), 1.f);
+    at.uv = {0.75f, 0.25f};
+    EXPECT_EQ(holes->opacity(at), 0.f);
+
+    const Made coloured = makeWithDiagnostics(bsdfNode("mask", {{"opacity", Color(1.f, 0.f, 0.f)}}, {{"", bsdfNode("diffuse")}}));
+    ASSERT_EQ(coloured.diagnostics.size(), 1u);
+    EXPECT_NEAR(coloured.bsdf->opacity({}), 0.2126f, 1e-6f);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ class TwoSided final : public Bsdf {
     }
 
     bool isDelta() const override { return front_->isDelta() && (!back_ || back_->isDelta()); }
+    float opacity(const SurfaceInteraction& at) const override { return front_->opacity(at); }
     Color displayColor() const override { return front_->displayColor(); }
 
   private:

@@ -37,7 +37,7 @@ const std::vector<BsdfCase>& scatteringBsdfs() {
         add("plastic nonlinear", bsdfNode("plastic", {{"nonlinear", true}, {"int_ior", 1.9}}));
         add("twosided", bsdfNode("twosided", {}, {{"", bsdfNode("roughconductor", {{"alpha", 0.4}})}}));
         add("twosided with two", bsdfNode("twosided", {}, {{"", bsdfNode("diffuse")}, {"", bsdfNode("roughplastic", {{"alpha", 0.3}})}}));
-        add("mask", bsdfNode("mask", {{"opacity", 0.6}}, {{"", bsdfNode("roughconductor", {{"alpha", 0.4}, {"material", std::string("Al")}})}}), true);
+        add("mask", bsdfNode("mask", {{"opacity", 0.6}}, {{"", bsdfNode("roughconductor", {{"alpha", 0.4}, {"material", std::string("Al")}})}}));
         return list;
     }();
     return cases;
@@ -55,7 +55,7 @@ const std::vector<BsdfCase>& allBsdfs() {
         add("thindielectric", bsdfNode("thindielectric"), true);
         add("conductor", bsdfNode("conductor", {{"material", std::string("Ag")}}), false);
         add("conductor none", bsdfNode("conductor", {{"material", std::string("none")}}), false);
-        add("mask of glass", bsdfNode("mask", {{"opacity", Color(0.2f, 0.9f, 1.f)}}, {{"", bsdfNode("dielectric")}}), true);
+        add("mask of glass", bsdfNode("mask", {{"opacity", 0.2}}, {{"", bsdfNode("dielectric")}}), true);
         add("roughconductor, nearly smooth", bsdfNode("roughconductor", {{"alpha", 1e-4}, {"distribution", std::string("ggx")}}), false);
         add("roughdielectric, nearly smooth", bsdfNode("roughdielectric", {{"alpha", 1e-4}}), true);
         return list;

@@ -45,7 +45,8 @@ class Bsdf {
 
     /// True if every lobe is delta, so that light sampling is in vain.
     virtual bool isDelta() const { return false; }
-    /// Probability that the surface is there at all (mask); 1 almost always.
+    /// Probability that the surface is there at all (mask); 1 almost always. The caller decides by it first: where the
+    /// surface is not, light goes straight on (Event::pass). All other functions describe the surface where it is.
     virtual float opacity(const SurfaceInteraction&) const { return 1.f; }
     /// Rough colour for display, in [0, 1].
     virtual Color displayColor() const { return Color(0.5f); }
