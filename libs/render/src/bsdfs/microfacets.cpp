@@ -77,7 +77,7 @@ float Microfacets::visiblePdf(Vec3f v, Vec3f m) const {
 /// Slope along the direction of view (x) and across (y) of a visible facet of unit roughness. The density of the slope
 /// x seen under theta is proportional to (cos theta - x sin theta) exp(-x^2), x < cot theta (Heitz and d'Eon,
 /// "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR 2014, section 5). Its
-/// integral, written over y = erf(x), is increasing and concave, so that Newton's steps approach the root from below.
+/// integral, written over y = erf(x), is increasing and concave; Halley's steps find u.x in it, within a bracket.
 Vec2f Microfacets::sampleBeckmannSlope(float cosTheta, Vec2f u) const {
     const float sinTheta = safeSqrt(1.f - cosTheta * cosTheta);
     const float slopeY = inverseErf(2.f * u.y - 1.f);
@@ -85,19 +85,18 @@ Vec2f Microfacets::sampleBeckmannSlope(float cosTheta, Vec2f u) const {
 
     const float cotangent = cosTheta / sinTheta;
     const float last = std::erf(cotangent);
-    const auto integral = [&](float y, float x) {
-        return cosTheta * (1.f + y) + sinTheta * kInvSqrtPi * std::exp(-x * x);
-    };
-    const float target = u.x * integral(last, cotangent);
+    const float target = u.x * (cosTheta * (1.f + last) + sinTheta * kInvSqrtPi * std::exp(-cotangent * cotangent));
     float low = -1.f, high = last;
     float y = low + u.x * (high - low);  // on the chord: never below the root
     float x = inverseErf(y);
     for (int i = 0; i < 12; ++i) {
-        const float excess = integral(y, x) - target;
+        const float gauss = std::exp(-x * x);
+        const float excess = cosTheta * (1.f + y) + sinTheta * kInvSqrtPi * gauss - target;
         if (std::abs(excess) < 1e-6f * (cosTheta + sinTheta)) break;
         (excess > 0.f ? high : low) = y;
         const float slope = cosTheta - x * sinTheta;
-        y = slope > 0.f ? y - excess / slope : low;
+        const float curvature = -sinTheta / (2.f * kInvSqrtPi * gauss);  // -sin theta dx/dy
+        y -= excess / (slope - 0.5f * excess * curvature / slope);
         if (!(y > low && y < high)) y = 0.5f * (low + high);
         x = inverseErf(y);
     }
