@@ -36,9 +36,11 @@ struct Served {
 }  // namespace emca::test
 
 #define ASSERT_OK(result) ASSERT_TRUE((result).ok()) << (result).error().message
-#define EXPECT_CODE(result, wanted)                                                                  \
-    do {                                                                                             \
-        ASSERT_FALSE((result).ok());                                                                 \
-        EXPECT_STREQ(name((result).error().code), name(ErrorCode::wanted)) << (result).error().message; \
-        EXPECT_GT((result).error().message.size(), 15u) << "an error says what to do";               \
+#define EXPECT_CODE(result, wanted)                                                     \
+    do {                                                                                \
+        const auto& found = (result);                                                   \
+        ASSERT_FALSE(found.ok());                                                       \
+        const Error& error = found.error();                                             \
+        EXPECT_STREQ(name(error.code), name(ErrorCode::wanted)) << error.message;       \
+        EXPECT_GT(error.message.size(), 15u) << "an error says what to do";             \
     } while (false)

@@ -1,6 +1,6 @@
 #include "emca/server/renderer.h"
 
-#include "emca/recorder/recording.h"
+#include "emca/recorder/recorder.h"
 
 namespace emca {
 
@@ -21,9 +21,13 @@ class PartialMonitor final : public RequestMonitor {
     double begin_, end_;
 };
 
-struct PixelNotice {  // the end is told also where the renderer throws
+/// Tells the begin and end of a pixel, the end also where the renderer throws. The last path ends before its pixel.
+struct PixelNotice {
     PixelNotice(RequestMonitor& m, Pixel p) : monitor(m), pixel(p) { monitor.beginPixel(pixel); }
-    ~PixelNotice() { monitor.endPixel(pixel); }
+    ~PixelNotice() {
+        recorder().endPath();
+        monitor.endPixel(pixel);
+    }
     PixelNotice(const PixelNotice&) = delete;
     PixelNotice& operator=(const PixelNotice&) = delete;
     RequestMonitor& monitor;
