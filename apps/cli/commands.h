@@ -1,0 +1,12 @@
+#pragma once
+
+#include "command.h"
+
+// One subcommand each, in the file of its name.
+namespace emca::cli {
+
+void addInfoCommand(CLI::App& app, Run& run);
+void addRenderCommand(CLI::App& app, Run& run);
+void addPixelCommand(CLI::App& app, Run& run);
+
+}  // namespace emca::cli
