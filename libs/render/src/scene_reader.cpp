@@ -77,6 +77,7 @@ void SceneReader::checkVersion(const SceneElement& scene) {
                                            : "the scene's version \"" + text + "\" is not a version; it is read as 3.0");
     else if ((*major == 0 && *minor < 4) || *major == 1 || *major > 3 || *major < 0)
         report(scene.where(), "scene version " + text + " is not one of 0.4 to 0.6, 2.x and 3.x; it is read as if it were");
+    early_ = !parts.empty() && major && *major == 0;
 }
 
 void SceneReader::readContents(const XmlSource& source, pugi::xml_node parent, const NodePointer& into, int depth) {
@@ -128,6 +129,7 @@ SceneReader::NodePointer SceneReader::makeNode(const XmlSource& source, pugi::xm
     node->kind = kindOf(element.tag()).empty() ? element.tag() : std::string(kindOf(element.tag()));
     node->type = element.get("type");
     node->id = element.get("id");
+    node->early = early_;
     node->where = element.where();
     references_.addNode(node, document_.diagnostics);
     readContents(source, xml, node, depth + 1);

@@ -48,6 +48,7 @@ class SceneReader {
     SceneParameters parameters_;
     SceneReferences references_;
     SceneDocument document_;
+    bool early_ = false;  ///< the scene says a version below 1
     std::vector<std::filesystem::path> openFiles_;  ///< canonical, from the scene file to the one being read
     int includes_ = 0;
 };

@@ -193,6 +193,17 @@ TEST_F(TextureTest, Checkerboard) {
     expectNear(mapped->eval({0.3f, 0.1f}), Color(0.2f));
 }
 
+/// Mitsuba 0.6 does not know to_uv, though scene files for it carry it.
+TEST_F(TextureTest, EarlySceneFilesHaveNoUvTransform) {
+    const auto early = node("texture", "checkerboard", {{"to_uv", Transform::scale({2, 4, 1})}});
+    early->early = true;
+    std::vector<Diagnostic> diagnostics;
+    FactoryContext context{diagnostics, {}};
+    expectNear(makeTexture(*early, context)->eval({0.3f, 0.1f}), Color(0.4f));
+    ASSERT_EQ(diagnostics.size(), 1u);
+    EXPECT_THAT(diagnostics[0].message, HasSubstr("to_uv"));
+}
+
 TEST_F(TextureTest, UnknownTypesAreGreyAndNamed) {
     std::vector<Diagnostic> diagnostics;
     FactoryContext context{diagnostics, {}};

@@ -40,6 +40,7 @@ struct SceneNode {
     std::string type;   ///< "obj", "roughplastic", …
     std::string id;     ///< may be empty
     SourceLocation where;
+    bool early = false; ///< written for Mitsuba 0.4 to 0.6, for the few properties that mean something else there
     struct Entry { Property value; SourceLocation where; mutable bool used = false; };
     std::map<std::string, Entry> properties;
     /// name: role such as "reflectance"; may be empty. where: of the element or of the <ref> to it
