@@ -66,7 +66,7 @@ QString noteOf(const PathSet& paths, const Entry& entry, bool full) {
             const float weight = paths.contribution(entry.item).misWeight;
             if (std::isnan(weight)) return {};
             const std::string text = full ? analysis::formatFull(weight) : analysis::formatNumber(double(weight));
-            return QStringLiteral("MIS weight ") + toQString(text);
+            return QStringLiteral("MIS ") + toQString(text);
         }
         case Kind::nextEvent:
             return paths.nextEvent(entry.item).visible ? QStringLiteral("visible") : QStringLiteral("occluded");

@@ -43,7 +43,7 @@ QString valueText(const PathSet& paths, const Entry& entry);
 /// In full, for copying: what is read back has the same bits.
 QString fullValueText(const PathSet& paths, const Entry& entry);
 /// The same in parts, so that columns of numbers align: numbers of one to four components, or else a text; and a note
-/// ("MIS weight 0.5000", "visible").
+/// ("MIS 0.5000": the weight, "visible").
 struct ValueCells {
     QStringList numbers;
     QString text, note;

@@ -78,6 +78,7 @@ PathTree::PathTree(client::Dataset& dataset, client::Selection& selection, Theme
 
 void PathTree::buildHeader() {
     count_->setProperty("role", "muted");
+    count_->setMinimumWidth(40);
     for (const Ordering& ordering : kOrderings) order_->addItem(QString::fromUtf8(ordering.text));
     order_->setToolTip(tr("Order of the paths"));
     order_->setFocusPolicy(Qt::ClickFocus);
@@ -86,8 +87,8 @@ void PathTree::buildHeader() {
     find_->setClearButtonEnabled(true);
     find_->setMinimumWidth(80);
     find_->setMaximumWidth(150);
-    auto* expand = textButton(tr("Expand"), tr("Expand: the selected paths whole, or all paths to their vertices"), false);
-    auto* collapse = textButton(tr("Collapse"), tr("Collapse all paths"), false);
+    auto* expand = textButton(QStringLiteral("▾"), tr("Expand: the selected paths whole, or all paths to their vertices"), false);
+    auto* collapse = textButton(QStringLiteral("▸"), tr("Collapse all paths"), false);
 
     auto* bar = new QHBoxLayout;
     bar->setContentsMargins(Spacing::small, Spacing::tiny, Spacing::small, Spacing::tiny);

@@ -93,7 +93,7 @@ void PathTreeDelegate::paintValue(QPainter& painter, const QRect& rect, const QM
     const QStringList numbers = index.data(PathTreeModel::kNumbersRole).toStringList();
     if (numbers.isEmpty()) {
         const bool quiet = kind != Kind::infoEntry && kind != Kind::dataEntry && kind != Kind::vertexEntry;
-        drawText(painter, rect, index.data(Qt::DisplayRole).toString(), theme_.font(), quiet ? c.mutedText : c.text);
+        drawText(painter, rect, index.data(Qt::DisplayRole).toString(), theme_.numberFont(), quiet ? c.mutedText : c.text);
         return;
     }
     paintNumbers(painter, rect, numbers, c.text, theme_);

@@ -9,6 +9,7 @@
 #include "base/path_ids.h"
 #include "base/theme.h"
 #include "paths/path_tree_model.h"
+#include "paths/value_cells.h"
 
 namespace emca::explorer {
 
@@ -23,17 +24,25 @@ PathTreeView::PathTreeView(PathTreeModel& model, Theme& theme, QWidget* parent)
     setSelectionBehavior(SelectRows);
     setHorizontalScrollMode(ScrollPerPixel);
     setContextMenuPolicy(Qt::CustomContextMenu);
-    setIndentation(16);
+    setIndentation(14);
     setAnimated(false);
     setExpandsOnDoubleClick(true);
     setFrameShape(NoFrame);
     header()->setStretchLastSection(false);
-    header()->setSectionResizeMode(PathTreeModel::kItem, QHeaderView::Interactive);
-    header()->setSectionResizeMode(PathTreeModel::kValue, QHeaderView::Stretch);
+    header()->setSectionResizeMode(PathTreeModel::kItem, QHeaderView::Stretch);
+    header()->setSectionResizeMode(PathTreeModel::kValue, QHeaderView::Interactive);
     header()->setSectionResizeMode(PathTreeModel::kSwatch, QHeaderView::Fixed);
     header()->setMinimumSectionSize(40);
-    header()->resizeSection(PathTreeModel::kItem, 236);
-    header()->resizeSection(PathTreeModel::kSwatch, 60);
+    header()->resizeSection(PathTreeModel::kValue, 3 * numberCellWidth(theme.numberFont()) + 68);
+    header()->resizeSection(PathTreeModel::kSwatch, 54);
+    const auto restyle = [this] {
+        // The style fills the branches of selected rows with the highlight.
+        QPalette colors = palette();
+        colors.setColor(QPalette::Highlight, theme_.colors().selectedRow);
+        setPalette(colors);
+    };
+    restyle();
+    connect(&theme, &Theme::themeChanged, this, restyle);
 }
 
 PathTreeView::Arrangement PathTreeView::arrangement() const {

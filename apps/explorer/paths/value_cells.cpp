@@ -8,7 +8,7 @@
 
 namespace emca::explorer {
 
-int numberCellWidth(const QFont& font) { return QFontMetrics(font).horizontalAdvance(QStringLiteral("-0.0001234")) + 2; }
+int numberCellWidth(const QFont& font) { return QFontMetrics(font).horizontalAdvance(QStringLiteral("-1.234e-05")) + 2; }
 
 void paintNumbers(QPainter& painter, const QRect& rect, const QStringList& numbers, const QColor& color,
                   const Theme& theme) {

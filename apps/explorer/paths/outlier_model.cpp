@@ -1,0 +1,72 @@
+#include "paths/outlier_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/path_ids.h"
+#include "base/qt_compat.h"
+#include "emca/analysis/format.h"
+#include "paths/path_entries.h"
+
+namespace emca::explorer {
+
+void OutlierModel::setReport(const PathSet& paths, const analysis::OutlierReport& report,
+                             analysis::PathQuantity quantity) {
+    beginResetModel();
+    found_.clear();
+    found_.reserve(report.outliers.size());
+    const bool several = severalPixels(paths);
+    for (const Index path : report.outliers) {
+        const double value = analysis::pathValue(paths, path, quantity).value_or(std::numeric_limits<double>::quiet_NaN());
+        const double deviations = report.deviation > 0 && std::isfinite(value) ? (value - report.mean) / report.deviation
+                                                                               : std::numeric_limits<double>::quiet_NaN();
+        found_.push_back({pathId(paths, path), pathText(paths, path, several), value, deviations});
+    }
+    const auto rank = [](const Found& f) {
+        return std::isfinite(f.deviations) ? std::abs(f.deviations) : std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) { return rank(a) > rank(b); });
+    const std::string_view unit = analysis::unit(quantity);
+    quantity_ = toQString(analysis::label(quantity));
+    if (!unit.empty()) quantity_ += QStringLiteral(", ") + toQString(unit);
+    endResetModel();
+}
+
+std::vector<client::PathId> OutlierModel::ids() const {
+    std::vector<client::PathId> ids;
+    for (const Found& found : found_) ids.push_back(found.id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+QVariant OutlierModel::data(const QModelIndex& index, int role) const {
+    if (!index.isValid()) return {};
+    const Found& found = found_[static_cast<std::size_t>(index.row())];
+    if (role == Qt::TextAlignmentRole)
+        return int(Qt::AlignVCenter | (index.column() == kPath ? Qt::AlignLeft : Qt::AlignRight));
+    if (role != Qt::DisplayRole) return {};
+    switch (index.column()) {
+        case kPath: return found.name;
+        case kValue: return toQString(analysis::formatNumber(found.value));
+        case kDeviations:
+            if (!std::isfinite(found.deviations)) return QStringLiteral("–");
+            return QString(found.deviations < 0 ? QStringLiteral("−") : QStringLiteral("+")) +
+                   toQString(analysis::formatNumber(std::abs(found.deviations))) + QStringLiteral(" σ");
+        default: return {};
+    }
+}
+
+QVariant OutlierModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation != Qt::Horizontal) return {};
+    if (role == Qt::TextAlignmentRole) return int(Qt::AlignVCenter | (section == kPath ? Qt::AlignLeft : Qt::AlignRight));
+    if (role != Qt::DisplayRole) return {};
+    switch (section) {
+        case kPath: return QStringLiteral("Path");
+        case kValue: return quantity_;
+        case kDeviations: return QStringLiteral("from the mean");
+        default: return {};
+    }
+}
+
+}  // namespace emca::explorer

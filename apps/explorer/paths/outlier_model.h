@@ -1,0 +1,40 @@
+#pragma once
+
+#include <QAbstractTableModel>
+#include <vector>
+
+#include "emca/analysis/outliers.h"
+#include "emca/client/selection.h"
+
+namespace emca::explorer {
+
+/// Paths that an outlier detector found: path, value, and how many deviations it is from the mean.
+class OutlierModel : public QAbstractTableModel {
+    Q_OBJECT
+  public:
+    enum Column { kPath = 0, kValue = 1, kDeviations = 2, kColumnCount = 3 };
+    struct Found {
+        client::PathId id;
+        QString name;
+        double value = 0;
+        double deviations = 0;  ///< signed distance from the mean in standard deviations; NaN if there is none
+    };
+
+    explicit OutlierModel(QObject* parent = nullptr) : QAbstractTableModel(parent) {}
+    /// Farthest first, NaN and infinite values before all others.
+    void setReport(const PathSet& paths, const analysis::OutlierReport& report, analysis::PathQuantity quantity);
+    const std::vector<Found>& found() const { return found_; }
+    /// Sorted, as a Selection wants them.
+    std::vector<client::PathId> ids() const;
+
+    int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : int(found_.size()); }
+    int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumnCount; }
+    QVariant data(const QModelIndex& index, int role) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+  private:
+    std::vector<Found> found_;
+    QString quantity_;
+};
+
+}  // namespace emca::explorer

@@ -1,0 +1,198 @@
+#include "paths/outlier_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QTableView>
+#include <algorithm>
+
+#include "base/qt_compat.h"
+#include "base/state_overlay.h"
+#include "base/theme.h"
+#include "emca/analysis/format.h"
+#include "paths/outlier_model.h"
+#include "paths/table_delegate.h"
+
+namespace emca::explorer {
+
+using analysis::PathQuantity;
+
+namespace {
+
+constexpr PathQuantity kQuantities[] = {PathQuantity::luminance, PathQuantity::red, PathQuantity::green,
+                                        PathQuantity::blue, PathQuantity::depth};
+
+QString number(double value) { return toQString(analysis::formatNumber(value)); }
+QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
+
+}  // namespace
+
+OutlierPanel::OutlierPanel(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
+    : QWidget(parent), dataset_(dataset), selection_(selection), model_(new OutlierModel(this)),
+      quantity_(new QComboBox), deviations_(new QDoubleSpinBox), upperOnly_(new QCheckBox(tr("bright side only"))),
+      automatic_(new QCheckBox(tr("select on new pixels"))), summary_(new QLabel), table_(new QTableView),
+      select_(new QPushButton(tr("Select in views"))), overlay_(new StateOverlay(theme, table_)),
+      datasetListening_(dataset,
+                        [this](std::uint32_t parts) {
+                            if (parts & client::DatasetPart::currentTrace) reload();
+                        }),
+      selectionListening_(selection, [this](std::uint32_t parts) {
+          if (parts & client::SelectionPart::paths) follow();
+      }) {
+    table_->setItemDelegate(new TableDelegate(theme, this));
+    build();
+    detect();
+}
+
+void OutlierPanel::build() {
+    for (const PathQuantity quantity : kQuantities) quantity_->addItem(toQString(analysis::label(quantity)));
+    deviations_->setLocale(QLocale::c());
+    deviations_->setRange(0.1, 1000);
+    deviations_->setDecimals(1);
+    deviations_->setSingleStep(0.5);
+    deviations_->setValue(options_.deviations);
+    deviations_->setSuffix(QStringLiteral(" σ"));
+    deviations_->setPrefix(tr("mean ± "));
+    summary_->setProperty("role", "muted");
+    summary_->setWordWrap(true);
+    table_->setModel(model_);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    table_->setShowGrid(false);
+    table_->setFrameShape(QFrame::NoFrame);
+    table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(Spacing::row);
+    table_->horizontalHeader()->setHighlightSections(false);
+    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+
+    auto* top = new QHBoxLayout;
+    top->setSpacing(Spacing::small);
+    top->addWidget(quantity_, 1);
+    top->addWidget(deviations_, 1);
+    auto* switches = new QHBoxLayout;
+    switches->setSpacing(Spacing::large);
+    switches->addWidget(upperOnly_);
+    switches->addWidget(automatic_);
+    switches->addStretch(1);
+    auto* bottom = new QHBoxLayout;
+    bottom->addWidget(summary_, 1);
+    bottom->addWidget(select_, 0, Qt::AlignTop);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(Spacing::medium, Spacing::small, Spacing::medium, Spacing::small);
+    layout->setSpacing(Spacing::small);
+    layout->addLayout(top);
+    layout->addLayout(switches);
+    layout->addWidget(table_, 1);
+    layout->addLayout(bottom);
+
+    connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int i) {
+        options_.quantity = kQuantities[i];
+        detect();
+    });
+    connect(deviations_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double value) {
+        options_.deviations = value;
+        detect();
+    });
+    connect(upperOnly_, &QCheckBox::toggled, this, [this](bool on) {
+        options_.upperOnly = on;
+        detect();
+    });
+    connect(automatic_, &QCheckBox::toggled, this, [this](bool on) {
+        if (on) selectFound();
+    });
+    connect(select_, &QPushButton::clicked, this, &OutlierPanel::selectFound);
+    connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &OutlierPanel::choose);
+}
+
+void OutlierPanel::setOptions(const analysis::OutlierOptions& options) {
+    const auto at = std::find(std::begin(kQuantities), std::end(kQuantities), options.quantity);
+    if (at != std::end(kQuantities)) quantity_->setCurrentIndex(int(at - std::begin(kQuantities)));
+    deviations_->setValue(options.deviations);
+    upperOnly_->setChecked(options.upperOnly);
+}
+
+bool OutlierPanel::isAutomatic() const { return automatic_->isChecked(); }
+
+void OutlierPanel::setAutomatic(bool automatic) { automatic_->setChecked(automatic); }
+
+void OutlierPanel::detect() {
+    const Result<analysis::OutlierReport> report = analysis::detectOutliers(dataset_.paths(), options_);
+    report_ = report ? *report : analysis::OutlierReport();
+    {
+        const QScopedValueRollback<bool> guard(marking_, true);
+        model_->setReport(dataset_.paths(), report_, options_.quantity);
+    }
+    updateState();
+    if (!report) overlay_->showError(toQString(report.error().message));
+    follow();
+}
+
+void OutlierPanel::reload() {
+    detect();
+    if (isAutomatic() && !model_->found().empty()) selectFound();
+}
+
+QString OutlierPanel::summaryText() const {
+    if (dataset_.paths().empty()) return {};
+    QString text = tr("%1 of %2 paths; mean %3, σ %4")
+                       .arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()), number(report_.mean),
+                            number(report_.deviation));
+    if (report_.notFinite > 0) text += tr("; %1 NaN or infinite").arg(grouped(report_.notFinite));
+    if (report_.withoutValue > 0) text += tr("; %1 without final estimate").arg(grouped(report_.withoutValue));
+    return text;
+}
+
+void OutlierPanel::updateState() {
+    summary_->setText(summaryText());
+    select_->setEnabled(!model_->found().empty());
+    if (dataset_.paths().empty()) {
+        overlay_->showEmpty(tr("Outliers of a pixel"), tr("Click a pixel in the image"));
+    } else if (model_->found().empty()) {
+        overlay_->showEmpty(tr("No outliers beyond %1 σ").arg(options_.deviations),
+                            tr("Lower the limit, or try another quantity"));
+    } else {
+        overlay_->clear();
+    }
+}
+
+void OutlierPanel::selectFound() {
+    if (model_->found().empty()) return;
+    client::Selection::State state = selection_.state();
+    state.paths = model_->ids();
+    state.currentPath = model_->found().front().id;
+    selection_.set(std::move(state));
+}
+
+void OutlierPanel::follow() {
+    const QScopedValueRollback<bool> guard(marking_, true);
+    QItemSelection rows;
+    for (std::size_t i = 0; i < model_->found().size(); ++i) {
+        if (!selection_.isSelected(model_->found()[i].id)) continue;
+        const int row = static_cast<int>(i);
+        if (!rows.isEmpty() && rows.last().bottom() + 1 == row) {
+            const int top = rows.last().top();
+            rows.last() = QItemSelectionRange(model_->index(top, 0), model_->index(row, OutlierModel::kColumnCount - 1));
+        } else {
+            rows.append(QItemSelectionRange(model_->index(row, 0), model_->index(row, OutlierModel::kColumnCount - 1)));
+        }
+    }
+    table_->selectionModel()->reset();
+    table_->selectionModel()->select(rows, QItemSelectionModel::Select);
+    table_->viewport()->update();
+}
+
+void OutlierPanel::choose() {
+    if (marking_) return;
+    std::vector<client::PathId> ids;
+    for (const QModelIndex& row : table_->selectionModel()->selectedRows())
+        ids.push_back(model_->found()[static_cast<std::size_t>(row.row())].id);
+    selection_.setPaths(std::move(ids));
+}
+
+}  // namespace emca::explorer

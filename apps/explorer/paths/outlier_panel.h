@@ -1,0 +1,66 @@
+#pragma once
+
+#include <QWidget>
+
+#include "base/listeners.h"
+#include "emca/analysis/outliers.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QTableView;
+
+namespace emca::explorer {
+
+class OutlierModel;
+class StateOverlay;
+class Theme;
+
+/// Finds paths that stand out: beyond mean ± m·σ of a quantity, NaN and infinite ones always. The list follows the
+/// shown pixel; with "select on new pixels" what is found becomes the selection of all views.
+class OutlierPanel : public QWidget {
+    Q_OBJECT
+  public:
+    OutlierPanel(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent = nullptr);
+
+    const analysis::OutlierOptions& options() const { return options_; }
+    void setOptions(const analysis::OutlierOptions& options);
+    bool isAutomatic() const;
+    /// Selects what is found whenever another pixel is shown.
+    void setAutomatic(bool automatic);
+    /// Makes the paths found the selection; the farthest becomes current.
+    void selectFound();
+
+    const OutlierModel& model() const { return *model_; }
+    QTableView& table() { return *table_; }
+    QString summaryText() const;
+
+  private:
+    void build();
+    void detect();
+    void reload();
+    void follow();   ///< marks in the list what the Selection says
+    void choose();   ///< rows were chosen in the list
+    void updateState();
+
+    client::Dataset& dataset_;
+    client::Selection& selection_;
+    analysis::OutlierOptions options_;
+    analysis::OutlierReport report_;
+    OutlierModel* model_;
+    QComboBox* quantity_;
+    QDoubleSpinBox* deviations_;
+    QCheckBox* upperOnly_;
+    QCheckBox* automatic_;
+    QLabel* summary_;
+    QTableView* table_;
+    QPushButton* select_;
+    StateOverlay* overlay_;
+    bool marking_ = false;
+    DatasetListening datasetListening_;
+    SelectionListening selectionListening_;
+};
+
+}  // namespace emca::explorer

@@ -1,0 +1,31 @@
+set(EMCA_PLOTS_SOURCES
+  plots/contribution_plot.cpp
+  plots/contribution_plot.h
+  plots/depth_plot.cpp
+  plots/depth_plot.h
+  plots/edge_marks.cpp
+  plots/edge_marks.h
+  plots/luminance_plot.cpp
+  plots/luminance_plot.h
+  plots/marginal_histogram.cpp
+  plots/marginal_histogram.h
+  plots/path_plot.cpp
+  plots/path_plot.h
+  plots/plot_axis.cpp
+  plots/plot_axis.h
+  plots/plot_export.cpp
+  plots/plot_export.h
+  plots/plot_frame.cpp
+  plots/plot_frame.h
+  plots/plot_overlay.cpp
+  plots/plot_overlay.h
+  plots/points_item.cpp
+  plots/points_item.h
+  plots/scatter_plot.cpp
+  plots/scatter_plot.h
+  plots/scatter_plot_mouse.cpp
+)
+set(EMCA_PLOTS_TESTS
+  plots/path_plot_test.cpp
+  plots/plot_frame_test.cpp
+)
