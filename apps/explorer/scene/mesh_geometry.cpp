@@ -48,10 +48,13 @@ Welded weld(const Mesh& mesh, std::uint64_t& skipped) {
             continue;
         }
         const Triangle joined{welded[t[0]], welded[t[1]], welded[t[2]]};
-        if (joined[0] == joined[1] || joined[1] == joined[2] || joined[2] == joined[0]) continue;  // no area, no harm
+        const Vec3f a = w.positions[joined[0]], ab = w.positions[joined[1]] - a, ac = w.positions[joined[2]] - a;
+        const Vec3f normal = cross(ab, ac);
+        // Slivers, as at the poles of a sphere: nothing to see, and a normal of rounding errors makes false creases.
+        const float longest = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
+        if (!(length(normal) > 1e-5f * longest)) continue;
         w.triangles.push_back(joined);
-        const Vec3f a = w.positions[joined[0]];
-        w.faceNormals.push_back(cross(w.positions[joined[1]] - a, w.positions[joined[2]] - a));
+        w.faceNormals.push_back(normal);
     }
     w.firstFace.assign(w.positions.size() + 1, 0);
     for (const Triangle& t : w.triangles)

@@ -7,6 +7,7 @@ namespace emca::explorer {
 namespace {
 
 constexpr float kSelectedFactor = 1.75f;  ///< width of selected paths against others
+constexpr std::size_t kEyeRays = 12;      ///< all paths of a pixel begin alike: of those segments, so many are drawn
 constexpr std::size_t kFullDetailPaths = 32;  ///< more selected paths than this get no arrows and no dots
 
 QColor withAlpha(QColor color, double alpha) {
@@ -72,8 +73,11 @@ void PathLayer::rebuildContext() {
     if (paths_ && geometry_ && options_.paths == PathChoice::all) {
         drawn_ = evenlyChosen(geometry_->pathCount(), options_.maximumPaths);
         lines.reserve(geometry_->segments.size());
-        for (const Index path : drawn_) {
+        const std::size_t eyeStep = std::max<std::size_t>(1, drawn_.size() / kEyeRays);
+        for (std::size_t i = 0; i < drawn_.size(); ++i) {
+            const Index path = drawn_[i];
             for (const analysis::Segment& s : geometry_->segmentsOf(path)) {
+                if (s.from == analysis::kNoIndex && i % eyeStep != 0 && s.kind == analysis::SegmentKind::scatter) continue;
                 lines.push_back({s.start, s.end, options_.lineWidth, s.gap ? StrokeStyle::dashed : StrokeStyle::line,
                                  segmentColor(s, colors_)});
                 (s.kind == analysis::SegmentKind::scatter ? contextRoles_.path : contextRoles_.emitter) = true;
@@ -154,8 +158,8 @@ void PathLayer::rebuildHover() {
 void PathLayer::updateDimming() {
     const bool dimmed = !selection_.paths.empty();
     const float density = densityOpacity(drawn_.size()) * options_.pathOpacity;
-    context_.look().opacity = dimmed ? 0.22f * density + 0.02f : density;
-    contextNextEvents_.look().opacity = dimmed ? 0.3f * density : density;
+    context_.look().opacity = dimmed ? 0.15f * density + 0.02f : density;
+    contextNextEvents_.look().opacity = dimmed ? 0.2f * density : density;
     // With one current path among several selected ones, that one leads.
     selected_.look().opacity = selection_.path && selection_.paths.size() > 1 ? 0.5f : 1.f;
 
@@ -170,9 +174,12 @@ void PathLayer::updateDimming() {
         layer->look().fadeColor = colors_.sceneBottom;
     }
     // Dots lie on surfaces, half of each inside: bring them forward, and what is selected more.
+    // Through translucent surfaces they are seen whatever line crosses them.
     current_.look().pull = 0.001f;
-    marks_.look().pull = 0.004f;
-    hover_.look().pull = 0.006f;
+    for (StrokeLayer* layer : {&marks_, &hover_}) {
+        layer->look().pull = 0.02f;
+        layer->look().onTop = options_.surfaceOpacity < 0.995f;
+    }
 }
 
 ShownRoles PathLayer::roles() const {

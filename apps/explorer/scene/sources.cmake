@@ -21,5 +21,6 @@ set(EMCA_SCENE_SOURCES
   scene/stroke_mapper.cpp scene/stroke_mapper.h
   scene/vertex_card.cpp scene/vertex_card.h
   scene/view_pose.cpp scene/view_pose.h)
-set(EMCA_SCENE_TESTS)
+set(EMCA_SCENE_TESTS scene/mesh_geometry_test.cpp scene/path_geometry_test.cpp scene/picking_test.cpp
+  scene/scene_test_data.cpp scene/view_pose_test.cpp)
 set(EMCA_SCENE_GL_TESTS scene/scene_pictures_test.cpp scene/scene_test_data.cpp)

@@ -44,14 +44,14 @@ void StrokeLayer::setStrokes(std::span<const Stroke> strokes) {
     actor_->SetVisibility(visible_ && count_ > 0);
     if (n == 0) return;
 
-    const auto positions = floats("strokeStart", 3, 4 * n), ends = floats("strokeEnd", 3, 4 * n),
-               shapes = floats("strokeShape", 4, 4 * n), colors = floats("strokeColor", 4, 4 * n);
+    const auto corners = floats("corner", 3, 4 * n), starts = floats("strokeStart", 3, 4 * n),
+               ends = floats("strokeEnd", 3, 4 * n), shapes = floats("strokeShape", 2, 4 * n), colors = floats("strokeColor", 4, 4 * n);
     vtkNew<vtkTypeInt32Array> offsets, connectivity;
     offsets->SetNumberOfValues(static_cast<vtkIdType>(2 * n + 1));
     connectivity->SetNumberOfValues(static_cast<vtkIdType>(6 * n));
-    float *position = positions->GetPointer(0), *end = ends->GetPointer(0), *shape = shapes->GetPointer(0),
+    float *place = corners->GetPointer(0), *start = starts->GetPointer(0), *end = ends->GetPointer(0), *shape = shapes->GetPointer(0),
           *color = colors->GetPointer(0);
-    vtkTypeInt32 *offset = offsets->GetPointer(0), *corner = connectivity->GetPointer(0);
+    vtkTypeInt32 *offset = offsets->GetPointer(0), *index = connectivity->GetPointer(0);
     vtkTypeInt32 base = 0;
     for (const Stroke& s : strokes) {
         if (!isFinite(s.from) || !isFinite(s.to)) continue;
@@ -59,23 +59,25 @@ void StrokeLayer::setStrokes(std::span<const Stroke> strokes) {
         const Vec3f to = point ? s.from : s.to;
         const float rgba[4] = {float(s.color.redF()), float(s.color.greenF()), float(s.color.blueF()), float(s.color.alphaF())};
         for (int i = 0; i < 4; ++i) {
-            for (const float v : {s.from.x, s.from.y, s.from.z}) *position++ = v;
+            for (const float v : {float(i), i == 1 || i == 2 ? 1.f : 0.f, 0.f}) *place++ = v;
+            for (const float v : {s.from.x, s.from.y, s.from.z}) *start++ = v;
             for (const float v : {to.x, to.y, to.z}) *end++ = v;
-            for (const float v : {float(i), 0.5f * s.width, float(s.style), 0.f}) *shape++ = v;
+            for (const float v : {0.5f * s.width, float(s.style)}) *shape++ = v;
             for (const float v : rgba) *color++ = v;
         }
-        for (const vtkTypeInt32 i : {0, 1, 2, 0, 2, 3}) *corner++ = base + i;
+        for (const vtkTypeInt32 i : {0, 1, 2, 0, 2, 3}) *index++ = base + i;
         base += 4;
     }
     for (std::size_t i = 0; i <= 2 * n; ++i) *offset++ = static_cast<vtkTypeInt32>(3 * i);
 
     vtkNew<vtkPoints> points;
-    points->SetData(positions);
+    points->SetData(corners);
     vtkNew<vtkCellArray> cells;
     cells->SetData(offsets, connectivity);
     vtkNew<vtkPolyData> data;
     data->SetPoints(points);
     data->SetPolys(cells);
+    data->GetPointData()->AddArray(starts);
     data->GetPointData()->AddArray(ends);
     data->GetPointData()->AddArray(shapes);
     data->GetPointData()->AddArray(colors);

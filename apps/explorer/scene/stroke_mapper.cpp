@@ -9,6 +9,7 @@
 #include <vtkRenderer.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
+#include <vtk_glew.h>
 
 #include <string>
 
@@ -16,9 +17,10 @@ namespace emca::explorer {
 namespace {
 
 constexpr const char* kVertexShader = R"(//VTK::System::Dec
-in vec4 vertexMC;
+in vec4 vertexMC;              // x: corner, 0 and 1 at the start, 2 and 3 at the end
+in vec3 strokeStart;
 in vec3 strokeEnd;
-in vec4 strokeShape;
+in vec2 strokeShape;           // half width, style
 in vec4 strokeColor;
 uniform mat4 MCDCMatrix;
 uniform mat4 MCVCMatrix;
@@ -33,7 +35,8 @@ out float viewDepth;
 vec2 toPixels(vec4 clip) { return (clip.xy / clip.w * 0.5 + 0.5) * strokeViewport.zw + strokeViewport.xy; }
 
 void main() {
-  vec3 start = vertexMC.xyz;
+  vec3 start = strokeStart;
+  float corner = vertexMC.x;
   vec3 end = strokeEnd;
   vec4 a = MCDCMatrix * vec4(start, 1.0);
   vec4 b = MCDCMatrix * vec4(end, 1.0);
@@ -50,8 +53,8 @@ void main() {
   if (db < 0.0) { float t = db / (db - da) * 1.0001; b = mix(b, a, t); end = mix(end, start, t); }
   vec2 pa = toPixels(a);
   vec2 pb = toPixels(b);
-  float style = strokeShape.z;
-  float halfWidth = strokeShape.y * strokePixels.x;
+  float style = strokeShape.y;
+  float halfWidth = strokeShape.x * strokePixels.x;
   vec2 way = pb - pa;
   float len = length(way);
   vec2 u = len > 1e-4 ? way / len : vec2(1.0, 0.0);
@@ -59,8 +62,8 @@ void main() {
   float za = a.z / a.w;
   float zb = b.z / b.w;
   float r = halfWidth + strokePixels.y * strokePixels.x + 1.0;
-  float t = strokeShape.x < 1.5 ? 0.0 : 1.0;
-  float side = (strokeShape.x > 0.5 && strokeShape.x < 2.5) ? 1.0 : -1.0;
+  float t = corner < 1.5 ? 0.0 : 1.0;
+  float side = (corner > 0.5 && corner < 2.5) ? 1.0 : -1.0;
   if (style > 1.5 && style < 2.5) {
     if (len < 5.0 * halfWidth) return;
     vec2 middle = pa + way * 0.56;
@@ -77,9 +80,11 @@ void main() {
   shape = vec4(halfWidth, style, len, 0.0);
   viewDepth = -(MCVCMatrix * vec4(t < 0.5 ? start : end, 1.0)).z;
   vec2 ndc = (pixel - strokeViewport.xy) / strokeViewport.zw * 2.0 - 1.0;
+  // An arrow head lies on its own line: a little nearer to the eye, or they fight.
+  float pull = strokePull + ((style > 1.5 && style < 2.5) ? 0.003 : 0.0);
   // z/w is linear on the screen, so the quad needs no perspective of its own.
   float z = t < 0.5 ? za : zb;
-  gl_Position = vec4(ndc, z - strokePull * (1.0 - z), 1.0);
+  gl_Position = vec4(ndc, z - pull * (1.0 - z), 1.0);
 }
 )";
 
@@ -139,9 +144,10 @@ void setColor(vtkShaderProgram& program, const char* name, const QColor& color, 
 vtkStandardNewMacro(StrokeMapper)
 
 StrokeMapper::StrokeMapper() {
-    // Both ends of a stroke must go through the same matrix, and only one of them is VTK's vertex position.
+    // Both ends of a stroke must go through the matrices as they are.
     SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     ScalarVisibilityOff();
+    MapDataArrayToVertexAttribute("strokeStart", "strokeStart", vtkDataObject::FIELD_ASSOCIATION_POINTS);
     MapDataArrayToVertexAttribute("strokeEnd", "strokeEnd", vtkDataObject::FIELD_ASSOCIATION_POINTS);
     MapDataArrayToVertexAttribute("strokeShape", "strokeShape", vtkDataObject::FIELD_ASSOCIATION_POINTS);
     MapDataArrayToVertexAttribute("strokeColor", "strokeColor", vtkDataObject::FIELD_ASSOCIATION_POINTS);
@@ -174,6 +180,8 @@ void StrokeMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) {
     auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
     vtkOpenGLState::ScopedglDepthMask saved(window->GetState());
     window->GetState()->vtkglDepthMask(look.writesDepth ? 1 : 0);
+    vtkOpenGLState::ScopedglDepthFunc savedFunction(window->GetState());
+    if (look.onTop) window->GetState()->vtkglDepthFunc(GL_ALWAYS);
     Superclass::RenderPieceDraw(renderer, actor);
 }
 

@@ -11,6 +11,7 @@ struct StrokeLook {
     float halo = 0;             ///< pixels of outline on each side; 0: none
     QColor haloColor;
     bool writesDepth = false;   ///< true: nearer strokes cut farther ones; false: they add up to a density
+    bool onTop = false;         ///< drawn over everything, whatever is nearer
     float fade = 0;             ///< depth cue: how much of the colour is lost at `fadeFar`, in [0, 1]
     float fadeNear = 0, fadeFar = 1;  ///< distances along the view direction
     QColor fadeColor;           ///< what distant strokes turn into
@@ -24,8 +25,9 @@ struct StrokeLook {
 /// stroke is a quad that the vertex shader spans around the projected segment; the fragment shader computes the
 /// distance to the segment. Nothing is computed on the CPU when the camera moves.
 ///
-/// Input: per stroke four points with the arrays strokeEnd (3), strokeShape (4: corner, half width, style, unused),
-/// strokeColor (4), and two triangles (StrokeLayer makes them).
+/// Input: per stroke four points and two triangles (StrokeLayer makes them). The points' own positions only number the
+/// corners, because VTK drops triangles whose points coincide; the arrays strokeStart (3), strokeEnd (3), strokeShape
+/// (2: half width, style) and strokeColor (4) hold the rest.
 class StrokeMapper : public vtkOpenGLPolyDataMapper {
   public:
     static StrokeMapper* New();
