@@ -131,7 +131,7 @@ ParsedCommandLine parseCommandLine(int argc, const char* const* argv) {
     app.add_option("--sampler", raw.sampler, "independent or sobol")->type_name("NAME");
     app.add_option("--seed", raw.seed, "another seed gives another noise of the same image")->type_name("N");
     app.add_option("--threads", raw.threads, "how many threads render; without it, one per processor")->type_name("N");
-    app.add_option("-D,--define", raw.defines, "value of a $name in the scene file; may be repeated")->type_name("name=value");
+    app.add_option("-D,--define", raw.defines, "value of a $name in the scene file; may be repeated")->type_name("name=value")->allow_extra_args(false);
     app.add_option("--serve", raw.serve, "serve the scene on HOST:PORT; host 127.0.0.1 if not given, port 0 picks one")->type_name("[HOST:]PORT");
     try {
         app.parse(argc, argv);

@@ -1,17 +1,13 @@
 // emca-render: the reference renderer as a command and as a server.
 
-#include <pthread.h>
-#include <signal.h>
-#include <unistd.h>
-
-#include <cstdio>
 #include <iostream>
-#include <thread>
+#include <optional>
 
 #include "command_line.h"
 #include "emca/imageio/imageio.h"
 #include "emca/render/scene_loader.h"
 #include "emca/server/server.h"
+#include "ending_signal.h"
 #include "progress_bar.h"
 #include "renderer_adapter.h"
 
@@ -30,16 +26,6 @@ void printDiagnostics(const render::Scene& scene) {
     }
 }
 
-/// The signals that end the program, blocked in every thread, so that one of ours waits for them.
-sigset_t blockEndingSignals() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    return signals;
-}
-
 int renderToFile(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
                  const CommandLine& line) {
     const render::ImageRenderer renderer(scene, line.threads);
@@ -49,15 +35,14 @@ int renderToFile(const std::shared_ptr<const render::Scene>& scene, const render
         callbacks.progress = [&](double fraction) { bar.update(fraction); };
         return renderer.renderImage(options, callbacks);
     }();
-    if (!image) return fail(image.error(), kExitServer);
+    if (!image) return fail(image.error(), kExitInput);
     const std::filesystem::path output = line.output.value_or(scene->name() + ".exr");
     if (auto written = imageio::write(output, *image); !written) return fail(written.error(), kExitInput);
     return kExitOk;
 }
 
 int serve(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
-          const CommandLine& line) {
-    const sigset_t signals = blockEndingSignals();
+          const CommandLine& line, EndingSignal& ending) {
     RendererAdapter adapter(scene, options, line.integrator.value_or("path"), line.threads);
     ServerOptions serverOptions;
     serverOptions.host = line.serve->host;
@@ -66,21 +51,16 @@ int serve(const std::shared_ptr<const render::Scene>& scene, const render::Rende
     serverOptions.log = [](const std::string& remark) { std::cerr << remark << std::endl; };
     auto server = Server::start(adapter, serverOptions);
     if (!server) return fail(server.error(), kExitConnection);
+    ending.setAction([&server] { (*server)->stop(); });
     std::cout << "listening on " << (*server)->address() << std::endl;
-
-    std::thread waiter([&] {
-        int signal = 0;
-        sigwait(&signals, &signal);
-        (*server)->stop();
-    });
     (*server)->wait();
-    // Ended by a client: the waiter still waits for its signal.
-    kill(getpid(), SIGTERM);
-    waiter.join();
+    ending.setAction([] {});  // a second signal must not meet a server that is gone
     return kExitOk;
 }
 
 int run(const CommandLine& line) {
+    std::optional<EndingSignal> ending;
+    if (line.serve) ending.emplace();
     render::SceneOptions sceneOptions;
     sceneOptions.defines = line.defines;
     sceneOptions.width = line.size.width;
@@ -99,7 +79,7 @@ int run(const CommandLine& line) {
     if (line.output) {
         if (const int code = renderToFile(*scene, options, line); code != kExitOk) return code;
     }
-    return serve(*scene, options, line);
+    return serve(*scene, options, line, *ending);
 }
 
 }  // namespace

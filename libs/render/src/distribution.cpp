@@ -8,6 +8,12 @@
 
 namespace emca::render {
 
+namespace {
+
+constexpr std::size_t kShortDistribution = 8;
+
+}  // namespace
+
 Distribution1D::Distribution1D(std::span<const float> weights) {
     if (weights.empty()) return;
     const auto usable = [](float weight) { return std::isfinite(weight) && weight > 0.f ? double(weight) : 0.0; };
@@ -28,8 +34,14 @@ Distribution1D::Distribution1D(std::span<const float> weights) {
 Distribution1D::Choice Distribution1D::sample(float u) const {
     assert(!cumulative_.empty());
     // The first entry whose upper end is beyond u: entries of width zero are never chosen.
-    const auto upper = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u);
-    const auto index = static_cast<std::size_t>(upper - cumulative_.begin()) - 1;
+    std::size_t index = 0;
+    const std::size_t last = size() - 1;
+    if (last < kShortDistribution) {
+        for (std::size_t i = 1; i <= last; ++i) index += u >= cumulative_[i] ? 1u : 0u;  // no branch to mispredict
+    } else {
+        index = static_cast<std::size_t>(std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u) -
+                                         cumulative_.begin()) - 1;
+    }
     const float width = probability(index);
     const float remainder = width > 0.f ? (u - cumulative_[index]) / width : 0.f;
     return {index, width, std::clamp(remainder, 0.f, kOneMinusEpsilon)};

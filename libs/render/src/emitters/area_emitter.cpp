@@ -10,13 +10,9 @@ AreaEmitter::AreaEmitter(const Shape& shape, std::shared_ptr<const Texture> radi
 std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
     const auto point = shape_.sample(from, u);
     if (!point) return std::nullopt;
-    const Vec3f toPoint = point->position - from;
-    const float distance = length(toPoint);
-    if (!(distance > 0.f)) return std::nullopt;
-    const Vec3f direction = toPoint / distance;
-    if (dot(point->normal, direction) >= 0.f) return std::nullopt;  // seen from behind
-    return EmitterSample{point->position, direction, distance, constant_ ? mean_ : radiance_->eval(point->uv),
-                         point->pdf};
+    if (dot(point->normal, point->direction) >= 0.f) return std::nullopt;  // seen from behind
+    return EmitterSample{point->position, point->direction, point->distance,
+                         constant_ ? mean_ : radiance_->eval(point->uv), point->pdf};
 }
 
 float AreaEmitter::power() const { return kPi * shape_.area() * luminance(mean_); }

@@ -74,11 +74,7 @@ std::optional<ShapeSample> DiskShape::sample(Vec3f from, Vec2f u) const {
     sample.normal = narrow(normal_) * normalSign_;
     const float angle = std::atan2(p.y, p.x) * (0.5f * kInvPi);
     sample.uv = {std::sqrt(p.x * p.x + p.y * p.y), angle < 0.f ? angle + 1.f : angle};
-    const Vec3f toPoint = sample.position - from;
-    const float squared = dot(toPoint, toPoint);
-    const float cosine = std::abs(dot(sample.normal, toPoint)) / std::sqrt(squared);
-    if (!(squared > 0.f) || !(cosine > 0.f)) return std::nullopt;
-    sample.pdf = squared / (cosine * area_);
+    if (!completeAreaSample(from, area_, sample)) return std::nullopt;
     return sample;
 }
 

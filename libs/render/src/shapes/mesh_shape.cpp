@@ -27,8 +27,12 @@ MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
     // Embree reads 16 bytes at every vertex, also at the last one.
     mesh_.positions.reserve(mesh_.positions.size() + 1);
     double area = 0;
+    faces_.reserve(mesh_.triangles.size());
     for (const Triangle& t : mesh_.triangles) {
-        area += triangleArea(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]);
+        const Vec3f a = mesh_.positions[t[0]], b = mesh_.positions[t[1]], c = mesh_.positions[t[2]];
+        area += triangleArea(a, b, c);
+        const float largest = std::max(largestCoordinate(a), std::max(largestCoordinate(b), largestCoordinate(c)));
+        faces_.push_back({normalize(cross(b - a, c - a)), kRelativePositionError * largest});
     }
     area_ = static_cast<float>(area);
 }
@@ -49,9 +53,9 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
     const float w = 1.f - hit.u - hit.v;
     // From the vertices, not along the ray: the error then does not grow with the distance to the ray's origin.
     at.position = a * w + b * hit.u + c * hit.v;
-    at.geometricNormal = normalize(cross(b - a, c - a));
-    at.positionError =
-        kRelativePositionError * std::max(largestCoordinate(a), std::max(largestCoordinate(b), largestCoordinate(c)));
+    const Face& face = faces_[hit.primitive];
+    at.geometricNormal = face.normal;
+    at.positionError = face.positionError;
     at.face = static_cast<std::int32_t>(hit.primitive);
 
     Vec3f normal = at.geometricNormal;
@@ -79,14 +83,10 @@ std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
 
     ShapeSample sample;
     sample.position = a * w + b * bary.x + c * bary.y;
-    sample.normal = normalize(cross(b - a, c - a));
+    sample.normal = faces_[chosen.index].normal;
     const bool mapped = !mesh_.uvs.empty();
     sample.uv = mapped ? mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y : bary;
-    const Vec3f toPoint = sample.position - from;
-    const float squared = dot(toPoint, toPoint);
-    const float cosine = std::abs(dot(sample.normal, toPoint)) / std::sqrt(squared);
-    if (!(squared > 0.f) || !(cosine > 0.f)) return std::nullopt;
-    sample.pdf = squared / (cosine * area_);
+    if (!completeAreaSample(from, area_, sample)) return std::nullopt;
     return sample;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "emca/render/distribution.h"
 #include "emca/render/shape.h"
 #include "emca/render/triangle_mesh.h"
@@ -23,7 +25,13 @@ class MeshShape final : public Shape {
     void prepareSampling();
 
   private:
+    /// What every hit needs of a flat triangle.
+    struct Face {
+        Vec3f normal;           ///< unit
+        float positionError;
+    };
     TriangleMesh mesh_;
+    std::vector<Face> faces_;   ///< one per triangle
     Distribution1D triangles_;  ///< by area; empty before prepareSampling()
     float area_ = 0;
 };

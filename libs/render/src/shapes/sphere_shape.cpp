@@ -85,6 +85,8 @@ std::optional<ShapeSample> SphereShape::sample(Vec3f from, Vec2f u) const {
     sample.position = narrow(center_ + normal * radius_);
     sample.normal = narrow(normal) * normalSign_;
     sample.uv = uvOf(normalize(toObject_.vector(narrow(normal))));
+    sample.direction = narrow(direction);
+    sample.distance = static_cast<float>(toSurface);
     sample.pdf = static_cast<float>(1 / (2 * kPiDouble * coneSize));
     return sample;
 }
@@ -95,11 +97,7 @@ std::optional<ShapeSample> SphereShape::sampleFromInside(Vec3f from, Vec2f u) co
     sample.position = narrow(center_ + widen(normal) * radius_);
     sample.normal = normal * normalSign_;
     sample.uv = uvOf(normalize(toObject_.vector(normal)));
-    const Vec3f toPoint = sample.position - from;
-    const float squared = dot(toPoint, toPoint);
-    const float cosine = std::abs(dot(normal, toPoint)) / std::sqrt(squared);
-    if (!(squared > 0.f) || !(cosine > 0.f)) return std::nullopt;
-    sample.pdf = squared / (cosine * area());
+    if (!completeAreaSample(from, area(), sample)) return std::nullopt;
     return sample;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -26,10 +27,24 @@ struct RayHit {
 /// Point on a shape that a light sampler chose.
 struct ShapeSample {
     Vec3f position;             ///< world space
+    Vec3f direction;            ///< unit, from the place that asked to `position`
+    float distance = 0;
     Vec3f normal;               ///< geometric, unit, towards the front
     Vec2f uv;
     float pdf = 0;              ///< per steradian as seen from the place that asked
 };
+
+/// Completes a sample whose points are chosen with equal density on all of a surface.
+/// \return false if the point is seen edge-on or from no distance
+inline bool completeAreaSample(Vec3f from, float area, ShapeSample& sample) {
+    const Vec3f toPoint = sample.position - from;
+    const float squared = dot(toPoint, toPoint);
+    sample.distance = std::sqrt(squared);
+    sample.direction = toPoint / sample.distance;
+    const float cosine = std::abs(dot(sample.normal, sample.direction));
+    sample.pdf = squared / (cosine * area);
+    return squared > 0.f && cosine > 0.f;
+}
 
 /// Surface with one material, in world space. Immutable once it is part of a scene; safe from all threads.
 class Shape {
