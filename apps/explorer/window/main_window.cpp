@@ -1,5 +1,6 @@
 #include "window/main_window.h"
 
+#include <QAction>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QMimeData>
@@ -13,6 +14,7 @@
 #include "base/theme.h"
 #include "image/image_view.h"
 #include "paths/path_tree.h"
+#include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "window/connect_panel.h"
 #include "window/history_view.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/listeners.h"
+#include "base/theme.h"
 #include "session/session_controller.h"
 #include "window/selection_undo.h"
 #include "window/views.h"
@@ -21,7 +22,6 @@ class PanelDock;
 class SampleBox;
 class StateOverlay;
 class StatusStrip;
-class Theme;
 class Toast;
 
 /// The window: views in docks, menus, toolbar, status bar, keys, and the words for every state. It decides nothing about

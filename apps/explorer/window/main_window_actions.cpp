@@ -10,6 +10,7 @@
 #include "base/theme.h"
 #include "image/image_controls.h"
 #include "image/image_view.h"
+#include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "window/connect_panel.h"
 #include "window/main_window.h"
@@ -129,7 +130,7 @@ void MainWindow::toggleLog() {
         return;
     }
     for (const Views::Plot& plot : views_.plots)
-        if (!plot.widget->visibleRegion().isEmpty()) QMetaObject::invokeMethod(plot.widget, "toggleLog");
+        if (!plot.widget->visibleRegion().isEmpty()) plot.widget->setLog(!plot.widget->isLog());
 }
 
 void MainWindow::focusSelection() {

@@ -4,6 +4,7 @@
 #include "emca/analysis/format.h"
 #include "image/image_view.h"
 #include "paths/path_tree.h"
+#include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "window/connect_panel.h"
 #include "window/history_view.h"

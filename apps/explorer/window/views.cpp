@@ -1,10 +1,14 @@
 #include "window/views.h"
 
+#include <QObject>
 #include <QScrollArea>
 
 #include "base/theme.h"
 #include "image/image_view.h"
 #include "paths/path_tree.h"
+#include "plots/contribution_plot.h"
+#include "plots/depth_plot.h"
+#include "plots/luminance_plot.h"
 #include "scene/scene_options_panel.h"
 #include "scene/scene_view.h"
 #include "window/history_view.h"
@@ -25,6 +29,9 @@ Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme&
     views.paths = new PathTree(dataset, selection, theme);
     views.vertex = new VertexView(dataset, selection, theme);
     views.history = new HistoryView(dataset, selection, theme);
+    views.plots = {{QObject::tr("RGB"), "plots-rgb", new ContributionPlot(dataset, selection, theme)},
+                   {QObject::tr("Luminance"), "plots-luminance", new LuminancePlot(dataset, selection, theme)},
+                   {QObject::tr("Depth"), "plots-depth", new DepthPlot(dataset, selection, theme)}};
     return views;
 }
 

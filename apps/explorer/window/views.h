@@ -11,7 +11,7 @@ namespace emca::explorer {
 
 class HistoryView;
 class ImageView;
-class OutlierPanel;
+class PathPlot;
 class PathTree;
 class SceneView;
 class Theme;
@@ -21,7 +21,7 @@ class VertexView;
 struct Views {
     struct Plot {
         QString title, name;      ///< for people; for the saved layout
-        QWidget* widget;
+        PathPlot* widget;
     };
     ImageView* image = nullptr;
     SceneView* scene = nullptr;

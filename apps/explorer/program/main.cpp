@@ -1,0 +1,63 @@
+#include <QApplication>
+#include <QTemporaryDir>
+#include <cstdio>
+
+#include "program/options.h"
+#include "program/unattended.h"
+#include "scene/scene_view.h"
+#include "window/main_window.h"
+
+using namespace emca;
+using namespace emca::explorer;
+
+namespace {
+
+int run(QApplication& application, const Options& options) {
+    // Pictures look the same on every machine: nobody's layout takes part in them.
+    QTemporaryDir fresh;
+    const QString file = !options.settings.isEmpty() ? options.settings : options.unattended() ? fresh.filePath("settings.ini") : QString();
+    auto settings = file.isEmpty() ? std::make_unique<QSettings>() : std::make_unique<QSettings>(file, QSettings::IniFormat);
+
+    Theme theme;
+    client::Dataset dataset;
+    client::Selection selection;
+    SessionController session(dataset, selection);
+    if (options.theme) settings->setValue("theme", *options.theme == ThemeKind::light ? "light" : "dark");
+    theme.applyTo(application);
+    MainWindow window(dataset, selection, session, theme, *settings);
+    if (options.size.isValid()) window.resize(options.size);
+    window.show();
+
+    Unattended steps(options, dataset, selection, session, window);
+    QObject::connect(&steps, &Unattended::ended, &application, [](int code, const QString& sentence) {
+        if (!sentence.isEmpty()) std::fprintf(stderr, "emca-explorer: %s\n", qUtf8Printable(sentence));
+        QCoreApplication::exit(code);
+    }, Qt::QueuedConnection);
+    steps.start();
+    return QApplication::exec();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    QStringList arguments;
+    for (int i = 1; i < argc; ++i) arguments += QString::fromLocal8Bit(argv[i]);
+    const auto options = parseOptions(arguments);
+    if (!options) {
+        std::fprintf(stderr, "emca-explorer: %s\n", options.error().message.c_str());
+        return exitCode(options.error());
+    }
+    if (options->help) {
+        std::fputs(qUtf8Printable(usage()), stdout);
+        return 0;
+    }
+    prepareOpenGl();
+    QCoreApplication::setOrganizationName("emca");
+    QCoreApplication::setApplicationName("emca-explorer");
+#if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
+    QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+    QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+#endif
+    QApplication application(argc, argv);
+    return run(application, *options);
+}

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QSize>
+#include <QString>
+#include <QStringList>
+#include <optional>
+
+#include "base/theme.h"
+#include "emca/client/connection.h"
+#include "emca/core/pixel.h"
+#include "emca/core/result.h"
+
+namespace emca::explorer {
+
+/// What was asked for on the command line.
+struct Options {
+    std::optional<client::Address> address;
+    QString image;                       ///< file to open; empty for none
+    std::optional<Pixel> pixel;
+    QString screenshot;                  ///< PNG to write, then end; empty: stay open
+    QString tour;                        ///< folder for pictures and index.md, then end; empty: stay open
+    QSize size;                          ///< invalid: as it was left
+    std::optional<ThemeKind> theme;
+    std::uint32_t samplesPerPixel = 0;   ///< 0: the scene's
+    QString settings;                    ///< file in place of the person's settings
+    bool help = false;
+    bool unattended() const { return !screenshot.isEmpty() || !tour.isEmpty(); }
+};
+
+/// \param arguments  without the program's name
+/// Errors: invalidArgument (usage), fileNotFound (an image that is not there).
+Result<Options> parseOptions(const QStringList& arguments);
+QString usage();
+
+/// Exit code of DESIGN.md for an error of parseOptions: 2 usage, 3 input.
+int exitCode(const Error& error);
+
+}  // namespace emca::explorer

@@ -1,0 +1,173 @@
+#include "program/unattended.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QSaveFile>
+#include <algorithm>
+
+#include "base/qt_compat.h"
+#include "emca/analysis/format.h"
+#include "image/image_canvas.h"
+#include "image/image_view.h"
+#include "paths/path_tree.h"
+#include "plots/path_plot.h"
+#include "program/tour_story.h"
+#include "scene/scene_view.h"
+#include "window/history_view.h"
+#include "window/main_window.h"
+#include "window/panel_dock.h"
+#include "window/sample_box.h"
+#include "window/selection_steps.h"
+#include "window/toast.h"
+#include "window/vertex_view.h"
+
+namespace emca::explorer {
+namespace {
+
+constexpr int kTickMilliseconds = 40;
+constexpr int kSettledTicks = 4;   // drawn things may start others: a flight of the camera, a late layout
+
+int codeOf(FailedTask task) {
+    switch (task) {
+        case FailedTask::connect: return 4;
+        case FailedTask::openImage: case FailedTask::saveImage: return 3;
+        case FailedTask::render: case FailedTask::trace: case FailedTask::scene: return 5;
+    }
+    return 5;
+}
+
+}  // namespace
+
+Unattended::Unattended(Options options, client::Dataset& dataset, client::Selection& selection, SessionController& session,
+                       MainWindow& window)
+    : options_(std::move(options)), dataset_(dataset), selection_(selection), session_(session), window_(window) {
+    timer_.setInterval(kTickMilliseconds);
+    connect(&timer_, &QTimer::timeout, this, &Unattended::tick);
+    connect(&session_, &SessionController::failed, this, [this](FailedTask task, const QString& sentence) {
+        if (options_.unattended()) end(codeOf(task), sentence);
+    });
+}
+
+void Unattended::start() {
+    if (options_.samplesPerPixel) window_.samples().setValue(static_cast<int>(options_.samplesPerPixel));
+    if (!options_.image.isEmpty()) {
+        session_.openImage(options_.image);
+        // Before connecting, so that no image is rendered where one is there.
+        then([this] { if (options_.address) window_.connectTo(*options_.address); });
+    } else if (options_.address) {
+        window_.connectTo(*options_.address);
+    }
+    if (options_.pixel || !options_.tour.isEmpty()) then([this] { selectPixel(); });
+    if (!options_.tour.isEmpty()) then([this] { tour(); });
+    if (!options_.screenshot.isEmpty()) then([this] {
+        if (!window_.grab().save(options_.screenshot)) end(3, tr("The picture could not be written to %1; check the folder and its ending.").arg(options_.screenshot));
+    });
+    timer_.start();
+}
+
+void Unattended::tick() {
+    settledTicks_ = window_.isSettled() ? settledTicks_ + 1 : 0;
+    if (settledTicks_ < kSettledTicks || ended_) return;
+    settledTicks_ = 0;
+    if (steps_.empty()) {
+        timer_.stop();
+        if (options_.unattended()) end(0);
+        return;
+    }
+    const auto step = std::move(steps_.front());
+    steps_.pop_front();
+    step();
+}
+
+void Unattended::end(int code, const QString& sentence) {
+    if (ended_) return;
+    ended_ = true;
+    timer_.stop();
+    steps_.clear();
+    emit ended(code, sentence);
+}
+
+void Unattended::selectPixel() {
+    std::optional<Pixel> pixel = options_.pixel;
+    const client::ImageEntry* entry = dataset_.currentImage();
+    if (!pixel && entry && entry->image)
+        if (const auto striking = strikingPixel(entry->image->color)) pixel = striking->pixel;
+    if (!pixel) {
+        end(5, tr("There is no image to choose a pixel from; give one with --pixel X,Y."));
+        return;
+    }
+    std::uint32_t width = 0, height = 0;
+    if (entry && entry->image) {
+        width = entry->image->color.width();
+        height = entry->image->color.height();
+    } else if (dataset_.info()) {
+        width = dataset_.info()->width;
+        height = dataset_.info()->height;
+    }
+    if (pixel->x >= width || pixel->y >= height) {
+        const QString sentence = tr("The pixel %1 is outside the image of %2 × %3 pixels; (0, 0) is its top left.")
+                                     .arg(toQString(analysis::formatPixel(*pixel))).arg(width).arg(height);
+        if (options_.unattended()) end(3, sentence);
+        else window_.toast().showError(sentence);
+        return;
+    }
+    selection_.setPixel(*pixel);
+}
+
+void Unattended::save(QWidget* widget, const QString& file, const QString& caption) {
+    if (!widget || ended_) return;
+    if (widget->grab().save(QDir(options_.tour).filePath(file))) pictures_.push_back({file, caption});
+    else end(3, tr("The picture could not be written to %1; check the folder.").arg(QDir(options_.tour).filePath(file)));
+}
+
+void Unattended::tour() {
+    if (!QDir().mkpath(options_.tour)) {
+        end(3, tr("The folder %1 could not be made.").arg(options_.tour));
+        return;
+    }
+    const auto suspect = findSuspect(dataset_.paths());
+    if (!suspect) {
+        end(5, tr("The renderer recorded no path with a final estimate for this pixel, so there is nothing to show."));
+        return;
+    }
+    const Pixel pixel = dataset_.current().front()->pixels.front();
+    std::vector<client::PathId> outliers;
+    for (const Index path : suspect->report.outliers) outliers.push_back(idOf(dataset_.paths(), path));
+    const client::PathId worst = idOf(dataset_.paths(), suspect->path);
+    if (std::find(outliers.begin(), outliers.end(), worst) == outliers.end()) outliers.push_back(worst);
+
+    // The strongest path alone, then its vertex: the views follow.
+    selection_.setPaths({worst});
+    if (suspect->vertex) selection_.setVertex(vertexIdOf(dataset_.paths(), *suspect->vertex));
+    window_.showDock("outliers");
+    then([this] { save(&window_, "01-window.png", tr("The whole window: image, plots, scene, path tree and the data of the vertex")); });
+    then([this, pixel] { window_.views().image->canvas().focusOn(pixel); });
+    then([this, pixel] {
+        save(window_.views().image, "02-image.png", tr("The image around pixel %1").arg(toQString(analysis::formatPixel(pixel))));
+        window_.views().image->canvas().fit();
+    });
+    then([this] { save(window_.views().scene, "03-scene.png", tr("The path in the scene, its vertex marked")); });
+    int number = 4;
+    const auto show = [&](const QString& dock, QWidget* widget, const QString& file, const QString& caption) {
+        if (!widget) return;
+        then([this, dock] { window_.showDock(dock); });
+        then([this, widget, name = QStringLiteral("%1-%2.png").arg(number, 2, 10, QChar('0')).arg(file), caption] { save(widget, name, caption); });
+        ++number;
+    };
+    Views& views = window_.views();
+    for (const Views::Plot& plot : views.plots) show(plot.name, plot.widget, plot.name, tr("%1 of every path of the pixel; the selected one is orange").arg(plot.title));
+    show("paths", views.paths, "paths", tr("The path as a tree of values"));
+    show("vertex", views.vertex, "intersection", tr("Everything that was recorded at the vertex"));
+    show("outliers", views.outliers, "outliers", tr("Paths beyond mean + 3 σ"));
+    show("history", views.history, "history", tr("The pixels that were traced"));
+    then([this, pixel, suspect = *suspect] {
+        std::vector<std::pair<QString, QString>> pictures;
+        for (const Picture& picture : pictures_) pictures.emplace_back(picture.file, picture.caption);
+        QSaveFile file(QDir(options_.tour).filePath("index.md"));
+        const QByteArray story = tourStory(dataset_, pixel, suspect, pictures).toUtf8();
+        if (!file.open(QIODevice::WriteOnly) || file.write(story) != story.size() || !file.commit())
+            end(3, tr("The story could not be written to %1.").arg(file.fileName()));
+    });
+}
+
+}  // namespace emca::explorer
