@@ -144,7 +144,9 @@ std::string pixelReport(const client::Trace& trace, const std::string& scene, st
     }
     text += makeTable(paths, order, outliers).text();
     text += "\nEstimates in W/(sr m²), before division by samples per pixel.\n";
-    if (!outliers.empty())
+    if (!outliers.empty() && report->considered < 2)
+        text += fmt::format("* {} of {} paths are NaN or infinite.\n", outliers.size(), paths.pathCount());
+    else if (!outliers.empty())
         text += fmt::format("* {} of {} paths beyond mean ± {:.0f} standard deviations of luminance ({} ± {}).\n", outliers.size(),
                             paths.pathCount(), kDeviations, formatNumber(report->mean), formatNumber(report->deviation));
     if (cut) text += fmt::format("The {} brightest of {} paths; --limit 0 shows all.\n", limit, paths.pathCount());
