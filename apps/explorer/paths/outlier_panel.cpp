@@ -130,6 +130,7 @@ void OutlierPanel::detect() {
     }
     updateState();
     if (!report) overlay_->showError(toQString(report.error().message));
+    written_.reset();
     follow();
 }
 
@@ -170,6 +171,8 @@ void OutlierPanel::selectFound() {
 }
 
 void OutlierPanel::follow() {
+    if (written_ && selection_.state().paths == *written_) return;
+    written_.reset();
     const QScopedValueRollback<bool> guard(marking_, true);
     QItemSelection rows;
     for (std::size_t i = 0; i < model_->found().size(); ++i) {
@@ -192,6 +195,8 @@ void OutlierPanel::choose() {
     std::vector<client::PathId> ids;
     for (const QModelIndex& row : table_->selectionModel()->selectedRows())
         ids.push_back(model_->found()[static_cast<std::size_t>(row.row())].id);
+    std::sort(ids.begin(), ids.end());
+    written_ = ids;
     selection_.setPaths(std::move(ids));
 }
 

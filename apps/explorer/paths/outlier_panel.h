@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QWidget>
+#include <optional>
+#include <vector>
 
 #include "base/listeners.h"
 #include "emca/analysis/outliers.h"
@@ -59,6 +61,7 @@ class OutlierPanel : public QWidget {
     QPushButton* select_;
     StateOverlay* overlay_;
     bool marking_ = false;
+    std::optional<std::vector<client::PathId>> written_;  ///< what choose() wrote: not news when it comes back
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;
 };

@@ -1,4 +1,8 @@
 set(EMCA_PATHS_SOURCES
+  paths/outlier_model.cpp
+  paths/outlier_model.h
+  paths/outlier_panel.cpp
+  paths/outlier_panel.h
   paths/path_entries.cpp
   paths/path_entries.h
   paths/path_tree.cpp
@@ -11,10 +15,20 @@ set(EMCA_PATHS_SOURCES
   paths/path_tree_view.h
   paths/swatch.cpp
   paths/swatch.h
+  paths/table_delegate.cpp
+  paths/table_delegate.h
   paths/value_cells.cpp
   paths/value_cells.h
+  paths/vertex_table.cpp
+  paths/vertex_table.h
+  paths/vertex_table_delegate.cpp
+  paths/vertex_table_delegate.h
+  paths/vertex_table_model.cpp
+  paths/vertex_table_model.h
 )
 set(EMCA_PATHS_TESTS
+  paths/outlier_panel_test.cpp
   paths/path_tree_model_test.cpp
   paths/path_tree_test.cpp
+  paths/vertex_table_test.cpp
 )

@@ -1,0 +1,120 @@
+#include "paths/outlier_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <QAbstractItemModelTester>
+#include <QCheckBox>
+#include <QPushButton>
+#include <QTableView>
+#include <QTest>
+#include <limits>
+
+#include "base/path_ids.h"
+#include "base/state_overlay.h"
+#include "base/theme.h"
+#include "paths/outlier_model.h"
+#include "paths/test_paths.h"
+
+namespace emca::explorer {
+namespace {
+
+using client::PathId;
+using test::fakePaths;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+class OutlierPanelTest : public testing::Test {
+  protected:
+    OutlierPanelTest() : panel(dataset, selection, theme) {
+        panel.resize(420, 420);
+        panel.show();
+    }
+    PathId id(std::int64_t sample, Pixel pixel = {174, 169}) const { return {pixel, sample, 0}; }
+    client::Dataset dataset;
+    client::Selection selection;
+    Theme theme;
+    OutlierPanel panel;
+};
+
+TEST_F(OutlierPanelTest, FindsTheFireflyAndSelectsIt) {
+    dataset.addTrace(test::traceOf(fakePaths({.samples = 1024, .vertices = 0, .firefly = 417})));
+    ASSERT_EQ(panel.model().found().size(), 1u);
+    EXPECT_EQ(panel.model().found()[0].id, id(417));
+    // One value among n that is far from all others is sqrt(n) deviations away, less 1/n.
+    EXPECT_NEAR(panel.model().found()[0].deviations, std::sqrt(1024.0), 0.1);
+    EXPECT_TRUE(selection.state().paths.empty()) << "finding is not selecting";
+    QTest::mouseClick(panel.findChild<QPushButton*>(), Qt::LeftButton);
+    EXPECT_EQ(selection.state().paths, std::vector<PathId>{id(417)});
+    EXPECT_EQ(selection.state().currentPath, id(417));
+}
+
+TEST_F(OutlierPanelTest, RunsByItselfOnNewPixels) {
+    panel.setAutomatic(true);
+    dataset.addTrace(test::traceOf(fakePaths({.samples = 1024, .vertices = 0, .firefly = 417})));
+    EXPECT_EQ(selection.state().paths, std::vector<PathId>{id(417)});
+    dataset.addTrace(test::traceOf(fakePaths({.pixel = {1, 2}, .samples = 256, .vertices = 0, .firefly = 9}), {1, 2}));
+    EXPECT_EQ(selection.state().paths, (std::vector<PathId>{id(9, {1, 2})}));
+}
+
+TEST_F(OutlierPanelTest, NamesSampleIndicesNotPositionsAndEachOnce) {
+    dataset.addTrace(test::traceOf(fakePaths({.samples = 512, .vertices = 0, .firstSample = 5000, .firefly = 5100})));
+    ASSERT_EQ(panel.model().found().size(), 1u);
+    EXPECT_EQ(panel.model().found()[0].name, "Path 5100");
+    panel.selectFound();
+    panel.selectFound();
+    EXPECT_EQ(selection.state().paths, std::vector<PathId>{id(5100)});
+}
+
+TEST_F(OutlierPanelTest, NaNComesFirstThenTheFarthest) {
+    std::vector<Color> estimates(200, Color(1));
+    for (std::size_t i = 0; i < 200; ++i) estimates[i] = Color(1 + 0.01f * float(i % 7));
+    estimates[20] = Color(8.f);
+    estimates[50] = Color(9.f);
+    estimates[120] = Color(kNaN, 1, 1);
+    dataset.addTrace(test::traceOf(test::pathsWithEstimates(estimates), {3, 4}));
+    ASSERT_EQ(panel.model().found().size(), 3u);
+    EXPECT_EQ(panel.model().found()[0].id.sample, 120);
+    EXPECT_EQ(panel.model().found()[1].id.sample, 50);
+    EXPECT_EQ(panel.model().found()[2].id.sample, 20);
+    EXPECT_TRUE(panel.summaryText().contains("1 NaN or infinite"));
+}
+
+TEST_F(OutlierPanelTest, EmptyStateNamesTheLimit) {
+    const auto* overlay = panel.findChild<StateOverlay*>();
+    EXPECT_EQ(overlay->sentence(), "Click a pixel in the image");
+    dataset.addTrace(test::traceOf(test::pathsWithEstimates(std::vector<Color>(10, Color(2)))));
+    EXPECT_TRUE(overlay->isVisible());
+    EXPECT_TRUE(panel.model().found().empty());
+    panel.setOptions({.quantity = analysis::PathQuantity::depth, .deviations = 2.5});
+    EXPECT_EQ(panel.options().quantity, analysis::PathQuantity::depth);
+    EXPECT_EQ(panel.options().deviations, 2.5);
+    panel.setAutomatic(true);
+    dataset.addTrace(test::traceOf({}));
+    EXPECT_TRUE(selection.state().paths.empty());
+}
+
+TEST_F(OutlierPanelTest, RowsAndSelectionFollowEachOther) {
+    panel.setOptions({.deviations = 0.5});
+    dataset.addTrace(test::traceOf(fakePaths({.samples = 64, .vertices = 0})));
+    ASSERT_GT(panel.model().found().size(), 3u);
+    QTableView& table = panel.table();
+    const QRect second = table.visualRect(panel.model().index(1, 0));
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, second.center());
+    EXPECT_EQ(selection.state().paths, std::vector<PathId>{panel.model().found()[1].id});
+    QTest::keyClick(&table, Qt::Key_Down);
+    EXPECT_EQ(selection.state().paths, std::vector<PathId>{panel.model().found()[2].id});
+    selection.setPaths({panel.model().found()[0].id, panel.model().found()[3].id});
+    EXPECT_EQ(table.selectionModel()->selectedRows().size(), 2);
+}
+
+TEST(OutlierModel, ObeysTheRulesOfItemModels) {
+    OutlierModel model;
+    QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::Fatal);
+    const PathSet paths = fakePaths({.samples = 64, .vertices = 0});
+    const auto report = analysis::detectOutliers(paths, {.deviations = 1});
+    ASSERT_TRUE(report.ok());
+    model.setReport(paths, *report, analysis::PathQuantity::luminance);
+    EXPECT_EQ(model.rowCount(), int(report->outliers.size()));
+}
+
+}  // namespace
+}  // namespace emca::explorer

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <QWidget>
+
+#include "base/listeners.h"
+
+class QLabel;
+class QTableView;
+class QToolButton;
+
+namespace emca::explorer {
+
+class StateOverlay;
+class Theme;
+class VertexTableModel;
+
+/// Everything recorded at the selected vertex, beside the same quantities at the vertices before and after it.
+class VertexTable : public QWidget {
+    Q_OBJECT
+  public:
+    VertexTable(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent = nullptr);
+
+    const VertexTableModel& model() const { return *model_; }
+    /// To the vertex before or after on the path, if there is one.
+    void stepBack();
+    void stepForward();
+
+  protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+  private:
+    void reload();
+    void showNeighbours();
+    void showMenu(const QPoint& position);
+
+    client::Dataset& dataset_;
+    client::Selection& selection_;
+    VertexTableModel* model_;
+    QLabel* title_;
+    QToolButton* back_;
+    QToolButton* forward_;
+    QTableView* table_;
+    StateOverlay* overlay_;
+    DatasetListening datasetListening_;
+    SelectionListening selectionListening_;
+};
+
+}  // namespace emca::explorer

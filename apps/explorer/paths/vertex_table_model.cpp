@@ -1,0 +1,108 @@
+#include "paths/vertex_table_model.h"
+
+#include <algorithm>
+#include <map>
+
+namespace emca::explorer {
+namespace {
+
+using Key = std::pair<QString, int>;  ///< name, and which one of those of the same name
+
+VertexTableModel::Cell cellOf(const PathSet& paths, const Entry& entry) {
+    return {true, valueCells(paths, entry), fullValueText(paths, entry), colorOf(paths, entry), toneOf(paths, entry)};
+}
+
+VertexTableModel::Cell textCell(const QString& text) { return {true, {{}, text, {}}, text, {}, Tone::normal}; }
+
+std::vector<std::pair<Key, Entry>> keyed(const PathSet& paths, Index vertex) {
+    std::vector<Entry> entries;
+    appendVertexEntries(paths, vertex, {}, entries);
+    std::vector<std::pair<Key, Entry>> result;
+    std::map<QString, int> seen;
+    for (const Entry& entry : entries) {
+        const QString key = keyText(paths, entry);
+        result.push_back({{key, seen[key]++}, entry});
+    }
+    return result;
+}
+
+QString eventText(const PathSet& paths, Index vertex) {
+    const QString text = vertexText(paths, vertex);
+    const int dot = text.indexOf(QStringLiteral(" · "));
+    return dot < 0 ? QString() : text.mid(dot + 3);
+}
+
+QString depthTitle(const PathSet& paths, Index vertex) {
+    return QStringLiteral("vertex ") + vertexText(paths, vertex).section(QStringLiteral(" · "), 0, 0);
+}
+
+}  // namespace
+
+void VertexTableModel::setVertex(const PathSet& paths, std::optional<Index> vertex) {
+    beginResetModel();
+    rows_.clear();
+    vertex_ = vertex;
+    neighbours_ = {};
+    titles_ = {};
+    if (vertex) {
+        const IndexRange range = paths.vertices(paths.pathOf(*vertex));
+        const auto same = [&](Index other) { return paths.subpath(other) == paths.subpath(*vertex); };
+        if (*vertex > range.first && same(*vertex - 1)) neighbours_[0] = *vertex - 1;
+        if (*vertex + 1 < range.last && same(*vertex + 1)) neighbours_[1] = *vertex + 1;
+        const std::array<std::optional<Index>, 3> columns{neighbours_[0], vertex, neighbours_[1]};
+
+        std::array<std::map<Key, Entry>, 3> there;
+        Row event{QStringLiteral("event"), {}};
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!columns[c]) continue;
+            titles_[c] = depthTitle(paths, *columns[c]);
+            for (const auto& [key, entry] : keyed(paths, *columns[c])) there[c].emplace(key, entry);
+            if (const QString text = eventText(paths, *columns[c]); !text.isEmpty()) event.cells[c] = textCell(text);
+        }
+        if (event.cells[1].present) rows_.push_back(event);
+        for (const auto& [key, entry] : keyed(paths, *vertex)) {
+            Row row{key.first, {}};
+            for (std::size_t c = 0; c < 3; ++c)
+                if (const auto at = there[c].find(key); at != there[c].end()) row.cells[c] = cellOf(paths, at->second);
+            rows_.push_back(std::move(row));
+        }
+    }
+    endResetModel();
+}
+
+const VertexTableModel::Cell& VertexTableModel::cell(int row, Column column) const {
+    return rows_[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(column - kPrevious)];
+}
+
+QString VertexTableModel::asText() const {
+    QString text;
+    for (const Row& row : rows_) {
+        text += row.quantity;
+        for (const Cell& cell : row.cells) text += QLatin1Char('\t') + cell.full;
+        text += QLatin1Char('\n');
+    }
+    return text;
+}
+
+QVariant VertexTableModel::data(const QModelIndex& index, int role) const {
+    if (!index.isValid()) return {};
+    if (index.column() == kQuantity) return role == Qt::DisplayRole ? QVariant(quantity(index.row())) : QVariant();
+    const Cell& cell = this->cell(index.row(), Column(index.column()));
+    if (!cell.present) return {};
+    if (role == Qt::DisplayRole)
+        return cell.value.numbers.isEmpty() ? cell.value.text : cell.value.numbers.join(QStringLiteral("  "));
+    if (role == Qt::ToolTipRole) return quantity(index.row()) + QStringLiteral(": ") + cell.full;
+    return {};
+}
+
+QVariant VertexTableModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation != Qt::Horizontal) return {};
+    if (role == Qt::TextAlignmentRole) return int(Qt::AlignLeft | Qt::AlignVCenter);
+    if (role != Qt::DisplayRole) return {};
+    if (section == kQuantity) return QStringLiteral("Quantity");
+    const QString& title = titles_[static_cast<std::size_t>(section - kPrevious)];
+    if (!title.isEmpty()) return title;
+    return section == kPrevious ? QStringLiteral("no vertex before") : section == kNext ? QStringLiteral("no vertex after") : QString();
+}
+
+}  // namespace emca::explorer

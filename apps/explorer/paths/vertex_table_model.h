@@ -1,0 +1,55 @@
+#pragma once
+
+#include <QAbstractTableModel>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "emca/core/path_set.h"
+#include "paths/path_entries.h"
+
+namespace emca::explorer {
+
+/// All quantities of one vertex, and the same ones at the vertices before and after it on its path.
+class VertexTableModel : public QAbstractTableModel {
+    Q_OBJECT
+  public:
+    enum Column { kQuantity = 0, kPrevious = 1, kThis = 2, kNext = 3, kColumnCount = 4 };
+    struct Cell {
+        bool present = false;
+        ValueCells value;
+        QString full;                ///< for copying
+        std::optional<Color> color;
+        Tone tone = Tone::normal;
+    };
+
+    explicit VertexTableModel(QObject* parent = nullptr) : QAbstractTableModel(parent) {}
+    /// Nothing: an empty table.
+    void setVertex(const PathSet& paths, std::optional<Index> vertex);
+    std::optional<Index> vertex() const { return vertex_; }
+    /// Neighbours on the path: of the same subpath, in order of depth.
+    std::optional<Index> previous() const { return neighbours_[0]; }
+    std::optional<Index> next() const { return neighbours_[1]; }
+
+    QString quantity(int row) const { return rows_[static_cast<std::size_t>(row)].quantity; }
+    const Cell& cell(int row, Column column) const;
+    /// Tab-separated, values in full.
+    QString asText() const;
+
+    int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : int(rows_.size()); }
+    int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumnCount; }
+    QVariant data(const QModelIndex& index, int role) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+  private:
+    struct Row {
+        QString quantity;
+        std::array<Cell, 3> cells;  ///< previous, this, next
+    };
+    std::vector<Row> rows_;
+    std::optional<Index> vertex_;
+    std::array<std::optional<Index>, 2> neighbours_;
+    std::array<QString, 3> titles_;
+};
+
+}  // namespace emca::explorer
