@@ -22,6 +22,14 @@ void collectNeighbours(const std::vector<float>& values, std::uint32_t width, st
         }
 }
 
+/// True if more than half of the values reach a limit, and so does their median: found without sorting.
+bool mostReach(const std::vector<float>& values, float limit) {
+    std::size_t count = 0;
+    for (const float v : values)
+        if (v >= limit && ++count > values.size() / 2) return true;
+    return false;
+}
+
 float median(std::vector<float>& values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -57,6 +65,7 @@ std::vector<Firefly> findFireflies(const Image& image, const FireflyOptions& opt
             // The median of many is at least 0 in a valid image, so dim pixels need no look at their neighbours.
             if (std::isfinite(value) && value < options.ratio * floor) continue;
             collectNeighbours(values, image.width(), image.height(), {x, y}, radius, neighbours);
+            if (mostReach(neighbours, value / options.ratio)) continue;
             const float middle = median(neighbours);
             const float ratio = std::isfinite(value) ? value / (std::max(middle, 0.f) + floor)
                                                      : std::numeric_limits<float>::infinity();

@@ -14,7 +14,8 @@ constexpr int kMantissaBits = 9;                 // fine enough that a cell hold
 constexpr int kShift = 23 - kMantissaBits;
 constexpr int kSmallestExponent = -73;           // below 2^-73 every curve up to gamma 8 rounds to 0
 constexpr std::uint32_t kFirstCell = static_cast<std::uint32_t>(127 + kSmallestExponent) << kMantissaBits;
-constexpr std::uint32_t kCells = static_cast<std::uint32_t>(-kSmallestExponent) << kMantissaBits;
+// Up to infinity, so that bright pixels need no branch, which noise would make unpredictable.
+constexpr std::uint32_t kCells = (std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> kShift) - kFirstCell + 1;
 
 double encodeSrgbExact(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
 
@@ -64,7 +65,7 @@ struct ToneMapper::Table {
 
     explicit Table(const ToneMap& settings) {
         for (int k = 0; k < 255; ++k) next[static_cast<std::size_t>(k)] = threshold((k + 0.5) / 255, settings);
-        next[255] = std::numeric_limits<float>::infinity();
+        next[255] = std::numeric_limits<float>::quiet_NaN();  // nothing is beyond
         std::size_t current = 0;
         for (std::uint32_t cell = 0; cell < kCells; ++cell) {
             const float start = std::bit_cast<float>((cell + kFirstCell) << kShift);
@@ -90,9 +91,8 @@ ToneMapper::ToneMapper(const ToneMap& settings)
       table_(std::make_shared<const Table>(settings_)) {}
 
 std::uint8_t ToneMapper::encode(float x) const {
-    if (!(x < 1.f)) return x >= 1.f ? 255 : 0;  // NaN is neither
     const std::uint32_t cell = (std::bit_cast<std::uint32_t>(x) >> kShift) - kFirstCell;
-    if (cell >= kCells) return 0;  // zero and tiny values wrap to large numbers, negative ones have the sign bit
+    if (cell >= kCells) return 0;  // zero and tiny values wrap to large numbers; negative ones and NaN are beyond infinity
     const std::uint8_t level = table_->level[cell];
     return static_cast<std::uint8_t>(level + (x >= table_->next[level]));
 }
