@@ -95,10 +95,14 @@ QByteArray characterMap(const QRawFont& font) {
     if (!digits) return {};
     QByteArray out;
     put16(out, 0);
-    put16(out, 1);
-    put16(out, 3);   // Windows,
-    put16(out, 10);  // Unicode in full
-    put32(out, 12);
+    put16(out, 2);
+    // Unicode in full, for Unicode and for Windows. Without the first FreeType makes a map of its own from the glyphs'
+    // names and prefers it.
+    for (const auto& [platform, encoding] : {std::pair(0u, 4u), std::pair(3u, 10u)}) {
+        put16(out, platform);
+        put16(out, encoding);
+        put32(out, 20);
+    }
     put16(out, 12);
     put16(out, 0);
     put32(out, static_cast<std::uint32_t>(16 + groups.size()));
