@@ -152,7 +152,7 @@ TEST_F(TextureTest, CoordinatesAreMapped) {
 TEST_F(TextureTest, BadFilesAreNamedAndGrey) {
     const std::string garbage = (folder_ / "garbage.png").string();
     std::ofstream(garbage) << "this is no picture";
-    const std::string cut = writeBytes("whole.png", 64, 64, 3, std::vector<unsigned char>(64 * 64 * 3, 77));
+    const std::string cut = write<float>("whole.exr", 64, 64, 3, std::vector<float>(64 * 64 * 3, 0.3f), OIIO::TypeDesc::FLOAT);
     std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
     for (const std::string& file : {std::string("absent.png"), garbage, cut, folder_.string()}) {
         std::vector<Diagnostic> diagnostics;
