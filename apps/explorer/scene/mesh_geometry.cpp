@@ -1,7 +1,6 @@
 #include "mesh_geometry.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
@@ -9,17 +8,18 @@
 namespace emca::explorer {
 namespace {
 
-struct PositionHash {
-    std::size_t operator()(const Vec3f& p) const {
-        // Adding 0 makes -0 and 0 equal in bits, as they are by ==.
-        std::uint64_t h = std::bit_cast<std::uint32_t>(p.x + 0.f);
-        h = h * 0x9e3779b97f4a7c15ull ^ std::bit_cast<std::uint32_t>(p.y + 0.f);
-        h = h * 0x9e3779b97f4a7c15ull ^ std::bit_cast<std::uint32_t>(p.z + 0.f);
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellHash {
+    std::size_t operator()(const Cell& c) const {
+        std::uint64_t h = static_cast<std::uint64_t>(c[0]);
+        h = h * 0x9e3779b97f4a7c15ull ^ static_cast<std::uint64_t>(c[1]);
+        h = h * 0x9e3779b97f4a7c15ull ^ static_cast<std::uint64_t>(c[2]);
         return static_cast<std::size_t>(h ^ (h >> 29));
     }
 };
 
-/// One mesh with equal positions joined, and the faces around each.
+/// One mesh with positions joined that are equal but for rounding (a millionth of its size), and the faces around each.
 struct Welded {
     std::vector<Vec3f> positions;
     std::vector<Triangle> triangles;
@@ -31,11 +31,19 @@ struct Welded {
 Welded weld(const Mesh& mesh, std::uint64_t& skipped) {
     Welded w;
     std::vector<std::uint32_t> welded(mesh.positions.size());
-    std::unordered_map<Vec3f, std::uint32_t, PositionHash> places;
+    BoundingBox box;
+    for (const Vec3f& p : mesh.positions)
+        if (isFinite(p)) box.extend(p);
+    const double scale = 1e6 / std::max(double(box.diagonal()), 1e-30);
+    const auto cellOf = [&](Vec3f p) {
+        return Cell{std::llround((double(p.x) - double(box.min.x)) * scale), std::llround((double(p.y) - double(box.min.y)) * scale),
+                    std::llround((double(p.z) - double(box.min.z)) * scale)};
+    };
+    std::unordered_map<Cell, std::uint32_t, CellHash> places;
     places.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         if (!isFinite(mesh.positions[i])) continue;
-        const auto [place, isNew] = places.try_emplace(mesh.positions[i], static_cast<std::uint32_t>(w.positions.size()));
+        const auto [place, isNew] = places.try_emplace(cellOf(mesh.positions[i]), static_cast<std::uint32_t>(w.positions.size()));
         if (isNew) w.positions.push_back(mesh.positions[i]);
         welded[i] = place->second;
     }
@@ -119,12 +127,16 @@ void appendEdges(const Welded& w, std::vector<Edge>& out) {
             sides.push_back({std::min(a, b) << 32 | std::max(a, b), f});
         }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key < b.key; });
+    BoundingBox box;
+    for (const Vec3f& p : w.positions) box.extend(p);
+    const float shortest = 1e-4f * box.diagonal();   // below a pixel even when the mesh fills the view
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i + 1;
         while (end < sides.size() && sides[end].key == sides[i].key) ++end;
         const bool border = end - i == 1;
         if (border || (end - i == 2 && !smoothTogether(w.faceNormals[sides[i].face], w.faceNormals[sides[i + 1].face])))
-            out.push_back({w.positions[sides[i].key >> 32], w.positions[sides[i].key & 0xffffffffu]});
+            if (const Edge e{w.positions[sides[i].key >> 32], w.positions[sides[i].key & 0xffffffffu]}; length(e.to - e.from) > shortest)
+                out.push_back(e);
         i = end;
     }
 }

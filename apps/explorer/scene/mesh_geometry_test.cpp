@@ -25,7 +25,7 @@ TEST(MeshGeometry, ballIsSmoothAndBlockIsNot) {
         const Vec3f out = normalize(ball.surfaces.positions[i] - Vec3f{0.42f, -0.6f, 0.25f});
         EXPECT_GT(dot(out, ball.surfaces.normals[i]), 0.98f);
     }
-    EXPECT_TRUE(ball.edges.empty());
+    EXPECT_TRUE(ball.edges.empty()) << ball.edges.size() << " edges, the first " << length(ball.edges[0].to - ball.edges[0].from) << " long";
     const MeshGeometry block = makeMeshGeometry(std::vector{named(room, "block")}, kClay);
     EXPECT_EQ(block.surfaces.positions.size(), 24u);   // three normals at each of eight corners
     EXPECT_EQ(block.surfaces.triangles.size(), 12u);

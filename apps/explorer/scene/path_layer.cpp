@@ -86,6 +86,8 @@ void PathLayer::rebuildContext() {
                 appendNextEvents(path, std::nullopt, 0.75f * options_.lineWidth, nextEvents);
         }
     }
+    for (const Stroke& s : nextEvents)
+        (s.color == colors_.nextEventVisible ? contextRoles_.visible : contextRoles_.occluded) = true;
     context_.setStrokes(lines);
     contextNextEvents_.setStrokes(nextEvents);
     updateDimming();
@@ -116,7 +118,12 @@ void PathLayer::appendPath(Index path, bool current, std::vector<Stroke>& lines,
     if (!detail) return;
     const IndexRange range = paths_->vertices(path);
     for (Index v = range.first; v < range.last; ++v)
-        if (v != vertex) marks.push_back({geometry_->points[v], {}, 2.3f * width, StrokeStyle::dot, colors_.path});
+        if (v != vertex && !paths_->isEnvironment(v))
+            marks.push_back({geometry_->points[v], {}, 2.3f * width, StrokeStyle::dot, colors_.path});
+    // What ends on a light says so with its dot as well; in the environment there is no place to mark, only a direction.
+    for (const analysis::Segment& s : geometry_->segmentsOf(path))
+        if (s.kind == analysis::SegmentKind::toEmitter && s.to != vertex)
+            marks.push_back({geometry_->points[s.to], {}, 2.3f * width, StrokeStyle::dot, colors_.emitter});
 }
 
 void PathLayer::rebuildSelected() {
@@ -159,7 +166,7 @@ void PathLayer::updateDimming() {
     const bool dimmed = !selection_.paths.empty();
     const float density = densityOpacity(drawn_.size()) * options_.pathOpacity;
     context_.look().opacity = dimmed ? 0.15f * density + 0.02f : density;
-    contextNextEvents_.look().opacity = dimmed ? 0.2f * density : density;
+    contextNextEvents_.look().opacity = dimmed ? 0.15f * density : 0.6f * density;
     // With one current path among several selected ones, that one leads.
     selected_.look().opacity = selection_.path && selection_.paths.size() > 1 ? 0.5f : 1.f;
 
@@ -184,8 +191,8 @@ void PathLayer::updateDimming() {
 
 ShownRoles PathLayer::roles() const {
     const ShownRoles &a = contextRoles_, &b = selectedRoles_;
-    return {a.path || b.path, b.current, a.emitter || b.emitter, b.visible || contextNextEvents_.count() > 0,
-            b.occluded || contextNextEvents_.count() > 0, b.selected};
+    return {a.path || b.path,       b.current,                a.emitter || b.emitter,
+            a.visible || b.visible, a.occluded || b.occluded, b.selected};
 }
 
 void PathLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar) {

@@ -23,4 +23,6 @@ set(EMCA_SCENE_SOURCES
   scene/view_pose.cpp scene/view_pose.h)
 set(EMCA_SCENE_TESTS scene/mesh_geometry_test.cpp scene/path_geometry_test.cpp scene/picking_test.cpp
   scene/scene_test_data.cpp scene/view_pose_test.cpp)
-set(EMCA_SCENE_GL_TESTS scene/scene_pictures_test.cpp scene/scene_test_data.cpp)
+set(EMCA_SCENE_GL_TESTS scene/scene_pictures_test.cpp scene/scene_test_data.cpp scene/scene_view_test.cpp)
+# A program of its own, for bench/: what a click costs. Links emca_explorer_scene.
+set(EMCA_SCENE_BENCH scene/scene_bench.cpp scene/scene_test_data.cpp)
