@@ -28,7 +28,11 @@ void addData(const PathSet& paths, Scope scope, Index owner, Json& out) {
 Json eventJson(const PathSet& paths, Index vertex) {
     const auto scattering = paths.scattering(vertex);
     if (!scattering) return nullptr;
-    return {{"type", name(scattering->event)}, {"lobe", name(scattering->lobe)}, {"label", scattering->label}};
+    Json out;
+    out["type"] = name(scattering->event);
+    out["lobe"] = name(scattering->lobe);
+    out["label"] = scattering->label.empty() ? Json(nullptr) : Json(scattering->label);
+    return out;
 }
 
 Json surfaceJson(const PathSet& paths, Index vertex) {

@@ -45,6 +45,7 @@ TEST(PixelJson, ValuesOfVertices) {
               R"("surface":{"mesh":2,"face":11},"nee":[{"position":[0.0,5.0,0.0],"visible":true},)"
               R"({"position":[0.0,6.0,0.0],"visible":false}],"envmap":null,"estimate":[0.5,0.5,0.5],)"
               R"("emission":[0.0,0.0,0.0],"data":{"pdf":2.0},"history":{"pdf":[1e-05,2.0]}})");
+    EXPECT_EQ(vertices[2]["event"].dump(), R"({"type":"background","lobe":"none","label":null})");
     // The environment's hit is not a position in the scene.
     EXPECT_TRUE(vertices[2]["position"].is_null());
     EXPECT_EQ(vertices[2]["envmap"].dump(), "[7.0,8.0,9.0]");
