@@ -1,0 +1,34 @@
+#pragma once
+
+// What the snippets of the documentation take for granted: a renderer around them.
+#include "emca/core/seed_map.h"
+#include "emca/recorder/handles.h"
+#include "emca/recorder/recorder.h"
+#include "emca/server/server.h"
+
+struct MyVector { float x, y, z; };
+struct MyBsdf { std::string describe() const { return {}; } };
+struct MyRandom { void seed(std::uint64_t) {} };
+struct MyRay { MyVector o; };
+struct MyHit { MyVector p; int mesh = 0, face = 0; };
+
+inline MyRay ray;
+inline MyHit its, light;
+inline MyBsdf bsdf;
+inline MyRandom rng;
+inline emca::Pixel pixel;
+inline emca::Color T, f, Le, L;
+inline float w = 1, pdf = 1;
+inline bool visible = true;
+inline int sample = 0, bounce = 0, maxBounces = 8;
+inline std::uint64_t masterSeed = 0;
+inline void fail(const std::string&) {}
+
+class MyRenderer final : public emca::Renderer {
+  public:
+    emca::RendererInfo info() const override { return {}; }
+    emca::Camera camera() const override { return {}; }
+    std::vector<emca::Mesh> meshes() const override { return {}; }
+    emca::Result<emca::RenderedImage> renderImage(const emca::RenderSettings&, emca::RequestMonitor&) override { return emca::RenderedImage{}; }
+    emca::Result<emca::Color> renderPixel(emca::Pixel, const emca::RenderSettings&, emca::Recording&, emca::RequestMonitor&) override { return emca::Color(); }
+};
