@@ -69,7 +69,9 @@ void OutlierPanel::build() {
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(Spacing::row);
     table_->horizontalHeader()->setHighlightSections(false);
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    table_->horizontalHeader()->setResizeContentsPrecision(64);  // rows that are measured
+    table_->horizontalHeader()->setSectionResizeMode(OutlierModel::kPath, QHeaderView::Stretch);
 
     auto* top = new QHBoxLayout;
     top->setSpacing(Spacing::small);

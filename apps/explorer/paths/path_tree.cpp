@@ -86,9 +86,11 @@ void PathTree::buildHeader() {
     find_->setToolTip(tr("Show only values whose name contains this, at every vertex"));
     find_->setClearButtonEnabled(true);
     find_->setMinimumWidth(80);
-    find_->setMaximumWidth(150);
+    find_->setMaximumWidth(116);
     auto* expand = textButton(QStringLiteral("▾"), tr("Expand: the selected paths whole, or all paths to their vertices"), false);
     auto* collapse = textButton(QStringLiteral("▸"), tr("Collapse all paths"), false);
+
+    for (QToolButton* button : {expand, collapse}) button->setFixedWidth(Spacing::control);
 
     auto* bar = new QHBoxLayout;
     bar->setContentsMargins(Spacing::small, Spacing::tiny, Spacing::small, Spacing::tiny);

@@ -8,7 +8,14 @@
 
 namespace emca::explorer {
 
-int numberCellWidth(const QFont& font) { return QFontMetrics(font).horizontalAdvance(QStringLiteral("-1.234e-05")) + 2; }
+namespace {
+
+/// Between cells; the sign of the longest numbers may reach into it.
+constexpr int kGap = 8;
+
+}  // namespace
+
+int numberCellWidth(const QFont& font) { return QFontMetrics(font).horizontalAdvance(QStringLiteral("1.234e-05")) + kGap; }
 
 void paintNumbers(QPainter& painter, const QRect& rect, const QStringList& numbers, const QColor& color,
                   const Theme& theme) {
@@ -18,7 +25,7 @@ void paintNumbers(QPainter& painter, const QRect& rect, const QStringList& numbe
     for (int i = 0; i < numbers.size(); ++i) {
         const bool word = analysis::isNonFiniteWord(numbers[i].toStdString());
         painter.setPen(word ? theme.colors().warning : color);
-        painter.drawText(QRect(rect.left() + i * cell, rect.top(), cell - 8, rect.height()),
+        painter.drawText(QRect(rect.left() + i * cell - kGap, rect.top(), cell, rect.height()),
                          Qt::AlignRight | Qt::AlignVCenter, numbers[i]);
     }
 }

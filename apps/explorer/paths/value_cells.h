@@ -12,7 +12,7 @@ namespace emca::explorer {
 
 class Theme;
 
-/// Width of one number in a column of numbers: the longest that analysis::formatNumber makes.
+/// Width of one number in a column of numbers: the longest that analysis::formatNumber makes, and a gap.
 int numberCellWidth(const QFont& font);
 
 /// Paints numbers right-aligned in cells of equal width, so that components stand below each other; then the note.

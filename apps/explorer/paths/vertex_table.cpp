@@ -49,9 +49,9 @@ VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection,
     header->setHighlightSections(false);
     header->setMinimumSectionSize(60);
     header->resizeSection(VertexTableModel::kQuantity, 150);
-    header->resizeSection(VertexTableModel::kPrevious, 140);
+    header->resizeSection(VertexTableModel::kPrevious, 160);
     header->setSectionResizeMode(VertexTableModel::kThis, QHeaderView::Stretch);
-    header->resizeSection(VertexTableModel::kNext, 140);
+    header->resizeSection(VertexTableModel::kNext, 160);
 
     auto* bar = new QHBoxLayout;
     bar->setContentsMargins(Spacing::small, Spacing::tiny, Spacing::small, Spacing::tiny);
@@ -109,7 +109,7 @@ void VertexTable::showNeighbours() {
     // Neighbours only where the vertex's own colours keep their room.
     QHeaderView* header = table_->horizontalHeader();
     const int own = 3 * numberCellWidth(table_->font()) + 60;
-    const bool room = width() >= own + header->sectionSize(VertexTableModel::kQuantity) + 2 * 100;
+    const bool room = width() >= own + header->sectionSize(VertexTableModel::kQuantity) + 2 * 150;
     table_->setColumnHidden(VertexTableModel::kPrevious, !room);
     table_->setColumnHidden(VertexTableModel::kNext, !room);
 }

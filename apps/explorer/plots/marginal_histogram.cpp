@@ -114,7 +114,7 @@ void MarginalHistogram::paintEvent(QPaintEvent*) {
     if (!caption_.isEmpty()) {
         painter.setFont(theme_.smallFont());
         painter.setPen(c.mutedText);
-        painter.drawText(QRectF(4, height() - 19, width() - 8, 16), Qt::AlignLeft | Qt::AlignVCenter, caption_);
+        painter.drawText(QRectF(4, height() - 17, width() - 8, 16), Qt::AlignLeft | Qt::AlignVCenter, caption_);
         painter.setFont(theme_.smallNumberFont());
         painter.setPen(Qt::NoPen);
     }

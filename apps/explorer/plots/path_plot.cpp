@@ -263,6 +263,11 @@ QString PathPlot::describe(const Row& row, std::uint32_t point) const {
     for (const auto& other : rows_)
         if (const auto there = pointOf(*other, path); there && other->shown)
             text += QStringLiteral("\n%1  %2").arg(other->spec.axis.quantity, valueOf(*other, *there));
+    const ScatterContent& content = row.plot->content();
+    std::size_t here = 0;
+    for (std::size_t i = 0; i < content.xs.size(); ++i)
+        here += content.xs[i] == content.xs[point] && content.ys[i] == content.ys[point];
+    if (here > 1) text += tr("\nand %1 more here").arg(grouped(here - 1));
     return text;
 }
 

@@ -249,6 +249,19 @@ TEST(PathPlot, HoverTellsTheOthersAndShowsValues) {
     EXPECT_FALSE(bench.selection.hovered().has_value());
 }
 
+TEST(PathPlot, PointsOnTopOfEachOtherAreCounted) {
+    // Three pixels: the same sample index and depth in each.
+    std::vector<PathSet> sets;
+    for (std::uint32_t x = 0; x < 3; ++x) sets.push_back(pathsWithEstimates(std::vector<Color>(4, Color(1)), {2}, {x, 0}));
+    Bench<DepthPlot> bench(PathSet::merged(sets));
+    ASSERT_EQ(bench.plot.row(0).content().xs.size(), 12u);
+    const QPoint at = bench.at(0, 1);
+    QWidget* canvas = bench.plot.row(0).canvas();
+    QMouseEvent move(QEvent::MouseMove, at, canvas->mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(canvas, &move);
+    EXPECT_TRUE(bench.plot.row(0).hoverText().endsWith("and 2 more here")) << bench.plot.row(0).hoverText().toStdString();
+}
+
 TEST(PathPlot, EveryPathIsInOneBarOrEdgeRow) {
     std::vector<Color> estimates;
     for (int i = 0; i < 200; ++i) estimates.emplace_back(0.1f + 0.01f * float(i % 20));

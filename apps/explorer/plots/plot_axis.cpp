@@ -84,7 +84,7 @@ void styleAxis(QwtPlot& plot, int axis, const QString& title, const Theme& theme
     for (const auto role : {QPalette::WindowText, QPalette::Text}) palette.setColor(role, theme.colors().mutedText);
     plot.axisWidget(axis)->setPalette(palette);
     plot.axisWidget(axis)->setMargin(0);
-    plot.axisWidget(axis)->setSpacing(2);
+    plot.axisWidget(axis)->setSpacing(6);
 }
 
 }  // namespace emca::explorer

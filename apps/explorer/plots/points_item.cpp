@@ -76,12 +76,12 @@ void PointsItem::draw(QPainter* painter, const QwtScaleMap&, const QwtScaleMap&,
     painter->save();
     painter->setClipRect(canvas);
     painter->setRenderHint(QPainter::Antialiasing);
-    if (content_.dense()) {
-        drawDensity(*painter);
+    if (isVector(*painter) && !content_.dense()) {
+        drawDots(*painter, !content_.selected.empty());
     } else {
-        drawDots(*painter, false);
+        drawLayer(*painter);
     }
-    drawDots(*painter, true);
+    drawSelected(*painter);
     drawEdges(*painter);
     drawMean(*painter);
     drawCurrent(*painter);
@@ -101,73 +101,94 @@ QPixmap PointsItem::stamp(const QColor& color, double radius, const QColor& halo
     return pixmap;
 }
 
-void PointsItem::drawDots(QPainter& painter, bool selected) const {
-    const ThemeColors& c = theme_.colors();
+QColor PointsItem::dotColor(bool dimmed) const {
     const std::size_t count = content_.xs.size();
-    const bool dimmed = !selected && !content_.selected.empty();
-    const double r = radius(count) + (selected ? 1 : 0);
     const double opaque = count <= 256 ? 0.95 : count <= 2048 ? 0.8 : 0.6;
-    const QColor color = selected ? c.selected : withAlpha(content_.color, dimmed ? opaque * 0.38 : opaque);
-    const QColor halo = selected ? c.halo : QColor();
+    return withAlpha(content_.color, dimmed ? opaque * 0.38 : opaque);
+}
+
+template <typename Draw>
+void PointsItem::forInside(std::uint32_t point, Draw draw) const {
+    if (content_.frame.row(content_.ys[point]) != PlotRow::inside) return;  // edge marks draw it
+    if (const auto at = content_.frame.place(content_.xs[point], content_.ys[point])) draw(*at);
+}
+
+void PointsItem::drawDots(QPainter& painter, bool dimmed) const {
+    const double r = radius(content_.xs.size());
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(dotColor(dimmed));
+    for (std::uint32_t i = 0; i < content_.xs.size(); ++i)
+        forInside(i, [&](QPointF at) { painter.drawEllipse(at, r, r); });
+}
+
+void PointsItem::drawSelected(QPainter& painter) const {
+    const ThemeColors& c = theme_.colors();
+    const double r = radius(content_.xs.size()) + 1, half = std::ceil(r + 1.5);
     const bool vector = isVector(painter);
     QPixmap dot;
-    if (!vector) dot = stamp(color, r, halo, painter.device()->devicePixelRatioF());
-    const double half = std::ceil(r + 1.5);
-    painter.setPen(halo.isValid() ? QPen(halo, 1) : QPen(Qt::NoPen));
-    painter.setBrush(color);
-    const auto one = [&](std::uint32_t i) {
-        if (content_.frame.row(content_.ys[i]) != PlotRow::inside) return;  // edge marks draw it
-        const std::optional<QPointF> at = content_.frame.place(content_.xs[i], content_.ys[i]);
-        if (!at) return;
-        if (vector) {
-            painter.drawEllipse(*at, r, r);
-        } else {
-            painter.drawPixmap(QPointF(at->x() - half, at->y() - half), dot);
-        }
-    };
-    if (selected) {
-        for (const std::uint32_t i : content_.selected) one(i);
-        return;
-    }
-    std::size_t next = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (next < content_.selected.size() && content_.selected[next] == i) {
-            ++next;
-            continue;
-        }
-        one(i);
+    if (!vector) dot = stamp(c.selected, r, c.halo, painter.device()->devicePixelRatioF());
+    painter.setPen(QPen(c.halo, 1));
+    painter.setBrush(c.selected);
+    for (const std::uint32_t i : content_.selected)
+        forInside(i, [&](QPointF at) {
+            if (vector) {
+                painter.drawEllipse(at, r, r);
+            } else {
+                painter.drawPixmap(QPointF(at.x() - half, at.y() - half), dot);
+            }
+        });
+}
+
+void PointsItem::drawLayer(QPainter& painter) const {
+    const PlotFrame& frame = content_.frame;
+    const double ratio = painter.device()->devicePixelRatioF();
+    const bool dimmed = !content_.selected.empty();
+    const bool fresh = layer_.version == content_.version && layer_.x == frame.x().range && layer_.y == frame.y().range &&
+                       layer_.canvas == frame.canvas() && layer_.color == content_.color && layer_.dimmed == dimmed &&
+                       layer_.image.devicePixelRatioF() == (content_.dense() ? 1 : ratio) && !layer_.image.isNull();
+    if (!fresh)
+        layer_ = {content_.dense() ? densityImage(dimmed) : dotsImage(dimmed, ratio), content_.version, frame.x().range,
+                  frame.y().range, frame.canvas(), content_.color, dimmed};
+    if (content_.dense()) {
+        painter.drawImage(QRectF(QPointF(frame.x().start, frame.y().end), QPointF(frame.x().end, frame.y().start)),
+                          layer_.image);
+    } else {
+        painter.drawImage(QPointF(0, 0), layer_.image);
     }
 }
 
-void PointsItem::drawDensity(QPainter& painter) const {
+QImage PointsItem::dotsImage(bool dimmed, double ratio) const {
+    QImage image((content_.frame.canvas() * ratio).toSize().expandedTo(QSize(1, 1)), QImage::Format_ARGB32_Premultiplied);
+    image.setDevicePixelRatio(ratio);
+    image.fill(Qt::transparent);
+    QPainter painter(&image);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const double r = radius(content_.xs.size()), half = std::ceil(r + 1.5);
+    const QPixmap dot = stamp(dotColor(dimmed), r, {}, ratio);
+    for (std::uint32_t i = 0; i < content_.xs.size(); ++i)
+        forInside(i, [&](QPointF at) { painter.drawPixmap(QPointF(at.x() - half, at.y() - half), dot); });
+    return image;
+}
+
+QImage PointsItem::densityImage(bool dimmed) const {
     const PlotFrame& frame = content_.frame;
-    const QRectF area(QPointF(frame.x().start, frame.y().end), QPointF(frame.x().end, frame.y().start));
-    constexpr double kCell = 2;
-    const auto width = static_cast<std::uint32_t>(std::max(1.0, area.width() / kCell));
-    const auto height = static_cast<std::uint32_t>(std::max(1.0, area.height() / kCell));
-    const QColor color = content_.selected.empty() ? content_.color : withAlpha(content_.color, 0.5);
-    const bool stale = densityVersion_ != content_.version || !(densityX_ == frame.x().range) ||
-                       !(densityY_ == frame.y().range) || density_.width() != int(width) ||
-                       density_.height() != int(height) || densityColor_ != color;
-    if (stale) {
-        const analysis::DensityGrid grid =
-            analysis::densityGrid(content_.xs, content_.ys, frame.x().range, frame.y().range, width, height);
-        density_ = QImage(int(width), int(height), QImage::Format_ARGB32);
-        const double scale = grid.largest > 0 ? 1 / std::log1p(double(grid.largest)) : 0;
-        for (std::uint32_t row = 0; row < height; ++row) {
-            auto* line = reinterpret_cast<QRgb*>(density_.scanLine(int(height - 1 - row)));
-            for (std::uint32_t column = 0; column < width; ++column) {
-                const std::uint32_t count = grid.count(column, row);
-                const double alpha = count == 0 ? 0 : 0.15 + 0.85 * std::log1p(double(count)) * scale;
-                line[column] = qRgba(color.red(), color.green(), color.blue(), int(alpha * color.alpha()));
-            }
+    constexpr double kCell = 2;  // pixels
+    const auto cells = [](double length) { return static_cast<std::uint32_t>(std::max(1.0, length / kCell)); };
+    const std::uint32_t width = cells(frame.x().end - frame.x().start), height = cells(frame.y().start - frame.y().end);
+    const QColor color = withAlpha(content_.color, dimmed ? 0.5 : 1);
+    const analysis::DensityGrid grid =
+        analysis::densityGrid(content_.xs, content_.ys, frame.x().range, frame.y().range, width, height);
+    QImage image(int(width), int(height), QImage::Format_ARGB32);
+    const double scale = grid.largest > 0 ? 1 / std::log1p(double(grid.largest)) : 0;
+    for (std::uint32_t row = 0; row < height; ++row) {
+        auto* line = reinterpret_cast<QRgb*>(image.scanLine(int(height - 1 - row)));
+        for (std::uint32_t column = 0; column < width; ++column) {
+            const std::uint32_t count = grid.count(column, row);
+            const double alpha = count == 0 ? 0 : 0.15 + 0.85 * std::log1p(double(count)) * scale;
+            line[column] = qRgba(color.red(), color.green(), color.blue(), int(alpha * color.alpha()));
         }
-        densityVersion_ = content_.version;
-        densityX_ = frame.x().range;
-        densityY_ = frame.y().range;
-        densityColor_ = color;
     }
-    painter.drawImage(area, density_);
+    return image;
 }
 
 void PointsItem::drawEdges(QPainter& painter) const { paintEdgeMarks(painter, content_, theme_); }

@@ -48,8 +48,12 @@ class PointsItem : public QwtPlotItem {
     static double radius(std::size_t points);
 
   private:
-    void drawDensity(QPainter& painter) const;
-    void drawDots(QPainter& painter, bool selected) const;
+    void drawSelected(QPainter& painter) const;
+    QColor dotColor(bool dimmed) const;
+    /// Calls draw with the place of a point that is inside the ranges.
+    template <typename Draw>
+    void forInside(std::uint32_t point, Draw draw) const;
+    void drawDots(QPainter& painter, bool dimmed) const;
     void drawEdges(QPainter& painter) const;
     void drawCurrent(QPainter& painter) const;
     void drawMean(QPainter& painter) const;
@@ -58,10 +62,20 @@ class PointsItem : public QwtPlotItem {
 
     const ScatterContent& content_;
     const Theme& theme_;
-    mutable QImage density_;
-    mutable std::uint64_t densityVersion_ = ~std::uint64_t(0);
-    mutable analysis::ValueRange densityX_, densityY_;
-    mutable QColor densityColor_;
+    // All dots (or their density) without what is selected, as drawn last: a change of the selection draws them again
+    // only if they become dim or bright. A selected dot covers its own.
+    struct Layer {
+        QImage image;
+        std::uint64_t version = 0;
+        analysis::ValueRange x, y;
+        QSizeF canvas;
+        QColor color;
+        bool dimmed = false;
+    };
+    void drawLayer(QPainter& painter) const;
+    QImage densityImage(bool dimmed) const;
+    QImage dotsImage(bool dimmed, double ratio) const;
+    mutable Layer layer_;
 };
 
 }  // namespace emca::explorer

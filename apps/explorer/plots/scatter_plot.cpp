@@ -184,8 +184,10 @@ double ScatterPlot::axisWidth() const {
 void ScatterPlot::setAxisWidth(double width) {
     if (width == axisWidth_) return;
     axisWidth_ = width;
-    plot_->axisScaleDraw(QwtPlot::yLeft)->setMinimumExtent(width);
-    plot_->axisWidget(QwtPlot::yLeft)->updateGeometry();
+    auto* draw = plot_->axisScaleDraw(QwtPlot::yLeft);
+    draw->setMinimumExtent(width);
+    // The only call that makes Qwt place the title anew without changing anything else.
+    plot_->axisWidget(QwtPlot::yLeft)->setLabelAlignment(draw->labelAlignment());
     plot_->updateLayout();
 }
 
@@ -221,7 +223,7 @@ void ScatterPlot::layoutFrame() {
     content_.frame = PlotFrame(size, x, y, rows);
     const PlotFrame& frame = content_.frame;
     content_.xTicks = ticksOf(x, xAxis_.integral, frame.x().end - frame.x().start, 80);
-    content_.yTicks = ticksOf(y, yAxis_.integral && !log_, frame.y().start - frame.y().end, 24);
+    content_.yTicks = ticksOf(y, yAxis_.integral && !log_, frame.y().start - frame.y().end, 20);
     // A label that would stick out at the right would make this canvas narrower than those above it.
     const QFontMetrics metrics(theme_.smallNumberFont());
     for (analysis::Tick& tick : content_.xTicks)

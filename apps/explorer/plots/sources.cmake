@@ -27,5 +27,6 @@ set(EMCA_PLOTS_SOURCES
 )
 set(EMCA_PLOTS_TESTS
   plots/path_plot_test.cpp
+  plots/plot_axis_test.cpp
   plots/plot_frame_test.cpp
 )
