@@ -16,17 +16,18 @@ TEST(SamplingFunctions, DirectionsFallWhereTheDensitySays) {
     options.tests = 4;
     const auto check = [&options](const char* name, auto sample, auto pdf) {
         ++options.seed;
-        const auto result = testing::testDirections(
-            [&](TestRandom& random) { return std::optional(sample(random.next2())); },
-            [&](Vec3f w) { return static_cast<double>(pdf(w)); }, options);
+        const auto result =
+            testing::testDirections([&](TestRandom& random) { return std::optional(sample(random.next2())); },
+                                    [&](Vec3f w) { return static_cast<double>(pdf(w)); }, options);
         EXPECT_TRUE(result.accepted) << name << ": " << result.text;
         EXPECT_NEAR(result.integral, 1.0, 2e-3) << name;
     };
     check("cosine hemisphere", squareToCosineHemisphere, [](Vec3f w) { return squareToCosineHemispherePdf(w.z); });
     check("uniform hemisphere", squareToUniformHemisphere, [](Vec3f w) { return squareToUniformHemispherePdf(w.z); });
     check("uniform sphere", squareToUniformSphere, [](Vec3f) { return squareToUniformSpherePdf(); });
-    check("cone", [](Vec2f u) { return squareToUniformCone(u, 0.f); },
-          [](Vec3f w) { return w.z >= 0.f ? squareToUniformConePdf(0.f) : 0.f; });
+    check(
+        "cone", [](Vec2f u) { return squareToUniformCone(u, 0.f); },
+        [](Vec3f w) { return w.z >= 0.f ? squareToUniformConePdf(0.f) : 0.f; });
 }
 
 TEST(SamplingFunctions, DiskIsUniform) {

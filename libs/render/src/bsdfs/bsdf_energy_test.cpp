@@ -57,7 +57,8 @@ TEST(BsdfEnergy, LosslessSurfacesAreLossless) {
         {"diffuse", made(bsdfNode("diffuse", {{"reflectance", 1.0}})), false},
         {"plastic", made(bsdfNode("plastic", {{"diffuse_reflectance", 1.0}})), false},
         {"plastic nonlinear", made(bsdfNode("plastic", {{"diffuse_reflectance", 1.0}, {"nonlinear", true}})), false},
-        {"roughconductor, nearly smooth", made(bsdfNode("roughconductor", {{"material", none}, {"alpha", 0.001}})), false},
+        {"roughconductor, nearly smooth", made(bsdfNode("roughconductor", {{"material", none}, {"alpha", 0.001}})),
+         false},
     };
     for (const BsdfCase& c : cases) {
         for (const double theta : {0.0, 0.7, 1.3, 1.5}) {
@@ -66,7 +67,8 @@ TEST(BsdfEnergy, LosslessSurfacesAreLossless) {
         }
     }
     EXPECT_NEAR(albedo(*cases[0].bsdf, testing::directionOf(2.6, 0.3)).g, 1.f, 1e-3f) << "glass from inside";
-    EXPECT_NEAR(albedo(*cases[0].bsdf, testing::directionOf(1.8, 0.3)).g, 1.f, 1e-3f) << "glass from inside, beyond the critical angle";
+    EXPECT_NEAR(albedo(*cases[0].bsdf, testing::directionOf(1.8, 0.3)).g, 1.f, 1e-3f)
+        << "glass from inside, beyond the critical angle";
 }
 
 /// Light that facets throw at one another is lost; how much is bounded, and grows with roughness.
@@ -74,7 +76,8 @@ TEST(BsdfEnergy, RoughGlassLosesLittle) {
     for (const char* distribution : {"beckmann", "ggx"}) {
         float before = 1.f;
         for (const double alpha : {0.01, 0.1, 0.3, 0.6}) {
-            const auto glass = made(bsdfNode("roughdielectric", {{"alpha", alpha}, {"distribution", std::string(distribution)}}));
+            const auto glass =
+                made(bsdfNode("roughdielectric", {{"alpha", alpha}, {"distribution", std::string(distribution)}}));
             const float found = albedo(*glass, testing::directionOf(0.8, 0.0)).g;
             EXPECT_LE(found, before + 1e-3f) << distribution << " " << alpha;
             EXPECT_GE(found, alpha <= 0.1 ? 0.985f : 0.85f) << distribution << " " << alpha;
@@ -119,9 +122,8 @@ TEST(BsdfEnergy, SamplesEstimateTheIntegral) {
     for (const BsdfCase& c : testing::scatteringBsdfs()) {
         for (const double theta : {0.5, 1.3}) {
             const Vec3f wo = testing::directionOf(theta, 0.4);
-            const double integral = testing::integrateDirections(0, std::numbers::pi / 2, [&](Vec3f wi) {
-                return static_cast<double>(c.bsdf->eval(at, wo, wi).g);
-            });
+            const double integral = testing::integrateDirections(
+                0, std::numbers::pi / 2, [&](Vec3f wi) { return static_cast<double>(c.bsdf->eval(at, wo, wi).g); });
             TestRandom random(9);
             double sum = 0;
             for (int i = 0; i < kSamples; ++i) {

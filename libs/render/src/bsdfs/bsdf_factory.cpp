@@ -58,7 +58,8 @@ std::shared_ptr<const Bsdf> makeBsdf(const SceneNode& node, FactoryContext& cont
     if (const auto known = context.bsdfs.find(&node); known != context.bsdfs.end()) return known->second;
 
     PropertyReader read(node, context.diagnostics, context.searchFolders);
-    const auto maker = std::find_if(kMakers.begin(), kMakers.end(), [&](const auto& m) { return m.first == node.type; });
+    const auto maker =
+        std::find_if(kMakers.begin(), kMakers.end(), [&](const auto& m) { return m.first == node.type; });
     std::shared_ptr<const Bsdf> result;
     if (maker == kMakers.end()) {
         result = replacement(read, context);

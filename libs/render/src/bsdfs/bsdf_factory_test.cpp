@@ -11,8 +11,8 @@
 namespace emca::render {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::bsdfNode;
+using ::testing::HasSubstr;
 using testing::made;
 using testing::node;
 
@@ -42,7 +42,8 @@ TEST(BsdfFactory, DefaultsAreThoseOfSceneFiles) {
     EXPECT_NEAR(glass->eta, 1.5046f / 1.000277f, 1e-6f);
     EXPECT_EQ(glass->event, Event::transmit);
     EXPECT_EQ(glass->lobe, Lobe::specular);
-    EXPECT_NEAR(glass->weight.g, 1.f / (glass->eta * glass->eta), 1e-6f) << "radiance shrinks by eta^2 towards the eye outside";
+    EXPECT_NEAR(glass->weight.g, 1.f / (glass->eta * glass->eta), 1e-6f)
+        << "radiance shrinks by eta^2 towards the eye outside";
     const auto metal = made(bsdfNode("conductor"))->sample({}, {0, 0, 1}, 0.5f, {});
     ASSERT_TRUE(metal);
     EXPECT_GT(metal->weight.r, metal->weight.b + 0.2f) << "copper";
@@ -65,7 +66,8 @@ TEST(BsdfFactory, SharedNodesAreSharedMaterials) {
 }
 
 TEST(BsdfFactory, UnknownTypesAreNamedAndReplaced) {
-    const Made phong = makeWithDiagnostics(bsdfNode("phong", {{"diffuse_reflectance", Color(0.1f, 0.2f, 0.3f)}, {"exponent", 30.0}}));
+    const Made phong =
+        makeWithDiagnostics(bsdfNode("phong", {{"diffuse_reflectance", Color(0.1f, 0.2f, 0.3f)}, {"exponent", 30.0}}));
     ASSERT_EQ(phong.diagnostics.size(), 1u);
     EXPECT_THAT(phong.diagnostics[0].message, HasSubstr("phong"));
     EXPECT_EQ(phong.diagnostics[0].where.text(), "scene.xml:7");
@@ -104,7 +106,8 @@ TEST(BsdfFactory, UnknownPropertiesAndValuesAreReported) {
 
 TEST(BsdfFactory, ConductorsTakeTheirIndexInAnyForm) {
     const auto byName = made(bsdfNode("conductor", {{"material", std::string("Au")}}));
-    const auto byNumbers = made(bsdfNode("conductor", {{"eta", Color(0.1431f, 0.3750f, 1.4425f)}, {"k", Color(3.9832f, 2.3857f, 1.6032f)}}));
+    const auto byNumbers = made(
+        bsdfNode("conductor", {{"eta", Color(0.1431f, 0.3750f, 1.4425f)}, {"k", Color(3.9832f, 2.3857f, 1.6032f)}}));
     const auto grey = made(bsdfNode("conductor", {{"eta", 1.5}, {"k", 0.0}, {"ext_eta", 1.0}}));
     const Vec3f up{0, 0, 1};
     EXPECT_EQ(byName->sample({}, up, 0.f, {})->weight, byNumbers->sample({}, up, 0.f, {})->weight);
@@ -114,7 +117,8 @@ TEST(BsdfFactory, ConductorsTakeTheirIndexInAnyForm) {
 TEST(BsdfFactory, TwoSidedMaterialsHaveTwoSides) {
     const auto one = made(bsdfNode("diffuse"));
     const auto both = made(bsdfNode("twosided", {}, {{"", bsdfNode("diffuse")}}));
-    const auto two = made(bsdfNode("twosided", {}, {{"", bsdfNode("diffuse")}, {"", bsdfNode("diffuse", {{"reflectance", 0.1}})}}));
+    const auto two =
+        made(bsdfNode("twosided", {}, {{"", bsdfNode("diffuse")}, {"", bsdfNode("diffuse", {{"reflectance", 0.1}})}}));
     const Vec3f down{0, 0, -1};
     EXPECT_TRUE(isBlack(one->eval({}, down, down)));
     EXPECT_EQ(both->eval({}, down, down), reflected(*one));
@@ -155,7 +159,8 @@ TEST(BsdfFactory, MaskHasAnOpacity) {
     at.uv = {0.75f, 0.25f};
     EXPECT_EQ(holes->opacity(at), 0.f);
 
-    const Made coloured = makeWithDiagnostics(bsdfNode("mask", {{"opacity", Color(1.f, 0.f, 0.f)}}, {{"", bsdfNode("diffuse")}}));
+    const Made coloured =
+        makeWithDiagnostics(bsdfNode("mask", {{"opacity", Color(1.f, 0.f, 0.f)}}, {{"", bsdfNode("diffuse")}}));
     ASSERT_EQ(coloured.diagnostics.size(), 1u);
     EXPECT_NEAR(coloured.bsdf->opacity({}), 0.2126f, 1e-6f);
 }

@@ -19,7 +19,8 @@ std::vector<Vec3f> outgoingDirections() {
             testing::directionOf(2.2, 4.0)};
 }
 
-testing::ChiSquareResult chiSquare(const Bsdf& bsdf, Vec3f wo, double pdfFactor, const testing::ChiSquareOptions& options) {
+testing::ChiSquareResult chiSquare(const Bsdf& bsdf, Vec3f wo, double pdfFactor,
+                                   const testing::ChiSquareOptions& options) {
     const SurfaceInteraction at;
     return testing::testDirections(
         [&](TestRandom& random) -> std::optional<Vec3f> {
@@ -81,9 +82,13 @@ TEST(BsdfSampling, WeightIsValueOverDensity) {
             EXPECT_FLOAT_EQ(both.pdf, c.bsdf->pdf(at, wo, sample->wi)) << c.name;
             // The half vector of two directions loses digits where lobes are narrow or the boundary nearly vanishes.
             const float tolerance = 2e-2f;
-            ASSERT_NEAR(both.pdf / sample->pdf, 1.f, tolerance) << c.name << ", wo.z = " << wo.z << ", wi.z = " << sample->wi.z;
-            for (const auto& [weight, value] : {std::pair{sample->weight.r, both.value.r}, {sample->weight.g, both.value.g}, {sample->weight.b, both.value.b}}) {
-                ASSERT_NEAR(value / both.pdf, weight, tolerance * weight + 1e-4f) << c.name << ", wo.z = " << wo.z << ", wi.z = " << sample->wi.z;
+            ASSERT_NEAR(both.pdf / sample->pdf, 1.f, tolerance)
+                << c.name << ", wo.z = " << wo.z << ", wi.z = " << sample->wi.z;
+            for (const auto& [weight, value] : {std::pair{sample->weight.r, both.value.r},
+                                                {sample->weight.g, both.value.g},
+                                                {sample->weight.b, both.value.b}}) {
+                ASSERT_NEAR(value / both.pdf, weight, tolerance * weight + 1e-4f)
+                    << c.name << ", wo.z = " << wo.z << ", wi.z = " << sample->wi.z;
             }
             ++compared;
         }
@@ -94,24 +99,28 @@ TEST(BsdfSampling, WeightIsValueOverDensity) {
 /// 100,000 random and degenerate calls: all is finite, unit, non-negative and labelled.
 TEST(BsdfSampling, SurvivesDegenerateInput) {
     constexpr std::array<float, 6> kCorners = {0.f, 1e-30f, 0x1p-24f, 0.5f, 1.f - 0x1p-12f, kOneMinusEpsilon};
-    const std::array<Vec3f, 9> edges = {Vec3f{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {1, 0, 1e-20f}, {1, 0, 1e-6f},
-                                        {0.6f, 0.8f, -1e-6f}, {1e-8f, 0, 1}, {0, 1e-8f, -1}};
+    const std::array<Vec3f, 9> edges = {Vec3f{0, 0, 1},       {0, 0, -1},     {1, 0, 0},
+                                        {0, -1, 0},           {1, 0, 1e-20f}, {1, 0, 1e-6f},
+                                        {0.6f, 0.8f, -1e-6f}, {1e-8f, 0, 1},  {0, 1e-8f, -1}};
     const SurfaceInteraction at;
     TestRandom random(11);
     const auto pick = [&](float) { return kCorners[static_cast<std::size_t>(random.next() * 6.f)]; };
     const int perCase = 100'000 / static_cast<int>(testing::allBsdfs().size()) + 1;
     for (const BsdfCase& c : testing::allBsdfs()) {
         for (int i = 0; i < perCase; ++i) {
-            const Vec3f wo = i % 3 == 0 ? edges[static_cast<std::size_t>(random.next() * 9.f)] : squareToUniformSphere(random.next2());
+            const Vec3f wo = i % 3 == 0 ? edges[static_cast<std::size_t>(random.next() * 9.f)]
+                                        : squareToUniformSphere(random.next2());
             const float uLobe = i % 2 == 0 ? random.next() : pick(0);
             const Vec2f u = i % 4 < 2 ? random.next2() : Vec2f{pick(0), pick(0)};
             const auto sample = c.bsdf->sample(at, wo, uLobe, u);
             const Vec3f wi = sample ? sample->wi : edges[static_cast<std::size_t>(random.next() * 9.f)];
             const Bsdf::EvalPdf both = c.bsdf->evalPdf(at, wo, wi);
-            ASSERT_TRUE(isFinite(both.value) && std::isfinite(both.pdf)) << c.name << ", wo.z = " << wo.z << ", wi.z = " << wi.z;
+            ASSERT_TRUE(isFinite(both.value) && std::isfinite(both.pdf))
+                << c.name << ", wo.z = " << wo.z << ", wi.z = " << wi.z;
             ASSERT_TRUE(both.value.r >= 0 && both.value.g >= 0 && both.value.b >= 0 && both.pdf >= 0) << c.name;
             if (!sample) continue;
-            ASSERT_TRUE(isFinite(sample->weight) && isFinite(sample->wi) && std::isfinite(sample->pdf)) << c.name << ", wo.z = " << wo.z;
+            ASSERT_TRUE(isFinite(sample->weight) && isFinite(sample->wi) && std::isfinite(sample->pdf))
+                << c.name << ", wo.z = " << wo.z;
             ASSERT_TRUE(sample->weight.r >= 0 && sample->weight.g >= 0 && sample->weight.b >= 0) << c.name;
             ASSERT_GT(sample->pdf, 0.f) << c.name;
             ASSERT_NEAR(length(sample->wi), 1.f, 1e-5f) << c.name << ", wo = " << wo.x << " " << wo.y << " " << wo.z;

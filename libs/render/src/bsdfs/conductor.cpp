@@ -31,9 +31,7 @@ class Conductor final : public Bsdf {
     Color displayColor() const override { return reflectance_.mean() * fresnel(1.f); }
 
   private:
-    Color fresnel(float cosine) const {
-        return ior_.ideal ? Color(1.f) : fresnelConductor(cosine, ior_.eta, ior_.k);
-    }
+    Color fresnel(float cosine) const { return ior_.ideal ? Color(1.f) : fresnelConductor(cosine, ior_.eta, ior_.k); }
 
     ConductorIor ior_;
     ColorInput reflectance_;

@@ -50,8 +50,6 @@ std::shared_ptr<Bsdf> makeDiffuse(PropertyReader& read, FactoryContext& context)
     return std::make_shared<Diffuse>(readColor(read, context, "reflectance", Color(0.5f)));
 }
 
-std::shared_ptr<Bsdf> makeDiffuse(Color reflectance) {
-    return std::make_shared<Diffuse>(ColorInput(reflectance));
-}
+std::shared_ptr<Bsdf> makeDiffuse(Color reflectance) { return std::make_shared<Diffuse>(ColorInput(reflectance)); }
 
 }  // namespace emca::render

@@ -58,7 +58,8 @@ float fresnelDiffuseReflectance(float eta) {
         const double s = (i + 0.5) / kSteps;
         const double cosine = criticalCos + (1.0 - criticalCos) * s * s;
         const double jacobian = (1.0 - criticalCos) * 2.0 * s / kSteps;
-        sum += static_cast<double>(fresnelDielectric(static_cast<float>(cosine), eta).reflectance) * 2.0 * cosine * jacobian;
+        sum += static_cast<double>(fresnelDielectric(static_cast<float>(cosine), eta).reflectance) * 2.0 * cosine *
+               jacobian;
     }
     return static_cast<float>(sum + criticalCos * criticalCos);
 }

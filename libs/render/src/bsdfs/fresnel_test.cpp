@@ -23,7 +23,8 @@ TEST(Fresnel, NormalIncidence) {
 TEST(Fresnel, BrewsterAngle) {
     for (const float eta : {1.33f, 1.5f, 2.f}) {
         const float cosBrewster = 1.f / std::sqrt(1.f + eta * eta);
-        EXPECT_NEAR(fresnelDielectric(cosBrewster, eta).reflectance, 0.5f * square((eta * eta - 1.f) / (eta * eta + 1.f)), 1e-6f);
+        EXPECT_NEAR(fresnelDielectric(cosBrewster, eta).reflectance,
+                    0.5f * square((eta * eta - 1.f) / (eta * eta + 1.f)), 1e-6f);
     }
 }
 
@@ -61,7 +62,8 @@ TEST(Fresnel, RefractionIsReversible) {
 
 TEST(Fresnel, ConductorWithoutExtinctionIsDielectric) {
     for (float cosine = 0.05f; cosine <= 1.f; cosine += 0.05f) {
-        EXPECT_NEAR(fresnelConductor(cosine, Color(1.5f), Color(0.f)).g, fresnelDielectric(cosine, 1.5f).reflectance, 2e-6f);
+        EXPECT_NEAR(fresnelConductor(cosine, Color(1.5f), Color(0.f)).g, fresnelDielectric(cosine, 1.5f).reflectance,
+                    2e-6f);
     }
 }
 
@@ -81,7 +83,8 @@ TEST(Fresnel, MetalsHaveTheirColours) {
         const auto metal = metalIor(name);
         return fresnelConductor(1.f, metal->eta, metal->k);
     };
-    const Color gold = reflectance("Au"), copper = reflectance("Cu"), silver = reflectance("Ag"), aluminium = reflectance("Al");
+    const Color gold = reflectance("Au"), copper = reflectance("Cu"), silver = reflectance("Ag"),
+                aluminium = reflectance("Al");
     EXPECT_NEAR(gold.r, 0.97f, 0.03f);
     EXPECT_NEAR(gold.g, 0.79f, 0.05f);
     EXPECT_NEAR(gold.b, 0.33f, 0.05f);
@@ -100,7 +103,9 @@ TEST(Fresnel, DiffuseReflectance) {
     EXPECT_NEAR(fresnelDiffuseReflectance(1.f), 0.f, 1e-6f);
     // n^2 (1 - F) is the same from both sides: what may enter may leave.
     for (const float eta : {1.1f, 1.33f, 1.8f, 2.4f}) {
-        EXPECT_NEAR(1.f - fresnelDiffuseReflectance(1.f / eta), (1.f - fresnelDiffuseReflectance(eta)) / (eta * eta), 2e-5f) << eta;
+        EXPECT_NEAR(1.f - fresnelDiffuseReflectance(1.f / eta), (1.f - fresnelDiffuseReflectance(eta)) / (eta * eta),
+                    2e-5f)
+            << eta;
     }
 }
 

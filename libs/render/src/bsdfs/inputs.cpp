@@ -25,7 +25,8 @@ Roughness readRoughness(PropertyReader& read, FactoryContext& context) {
         result.type = *type;
     } else {
         // "phong" and "as" (Ashikhmin and Shirley) are the other two that scene files may name.
-        read.reportProperty("distribution", "is \"" + distribution + "\", which is neither beckmann nor ggx; beckmann takes its place.");
+        read.reportProperty("distribution", "is \"" + distribution +
+                                                "\", which is neither beckmann nor ggx; beckmann takes its place.");
     }
     const NumberInput alpha = readNumber(read, context, "alpha", 0.1f);
     result.alphaU = readNumber(read, context, "alpha_u", 0.f);
@@ -35,7 +36,9 @@ Roughness readRoughness(PropertyReader& read, FactoryContext& context) {
     for (const char* name : {"alpha", "alpha_u", "alpha_v"}) {
         const auto value = read.number(name);
         if (value && !(*value > 0.0 && *value <= 10.0)) {
-            read.reportProperty(name, "is " + std::to_string(*value) + ", but a roughness is above 0 and rarely above 1; the nearest possible is used.");
+            read.reportProperty(name,
+                                "is " + std::to_string(*value) +
+                                    ", but a roughness is above 0 and rarely above 1; the nearest possible is used.");
         }
     }
     read.ignore("sample_visible");  // always
@@ -52,13 +55,15 @@ float readRelativeIor(PropertyReader& read, std::string_view inside, std::string
             if (const auto known = mediumIor(*text)) {
                 ior = *known;
             } else {
-                read.reportProperty(name, "is \"" + *text + "\", a medium that is not known here; " + std::string(fallback) + " takes its place.");
+                read.reportProperty(name, "is \"" + *text + "\", a medium that is not known here; " +
+                                              std::string(fallback) + " takes its place.");
             }
         } else {
             ior = read.number(name, ior);
         }
         if (!(ior > 0.0 && ior < 100.0)) {
-            read.reportProperty(name, "is " + std::to_string(ior) + ", but an index of refraction is positive; " + std::string(fallback) + " takes its place.");
+            read.reportProperty(name, "is " + std::to_string(ior) + ", but an index of refraction is positive; " +
+                                          std::string(fallback) + " takes its place.");
             ior = *mediumIor(fallback);
         }
         return ior;
@@ -75,7 +80,8 @@ ConductorIor readConductorIor(PropertyReader& read) {
     }
     auto metal = metalIor(material);
     if (!metal) {
-        read.reportProperty("material", "is \"" + material + "\", a conductor that is not known here; Cu takes its place.");
+        read.reportProperty("material",
+                            "is \"" + material + "\", a conductor that is not known here; Cu takes its place.");
         metal = metalIor("Cu");
     }
     result.eta = read.color("eta", metal->eta);
@@ -89,7 +95,8 @@ ConductorIor readConductorIor(PropertyReader& read) {
             if (const auto known = mediumIor(*text)) {
                 outside = *known;
             } else {
-                read.reportProperty("ext_eta", "is \"" + *text + "\", a medium that is not known here; air takes its place.");
+                read.reportProperty("ext_eta",
+                                    "is \"" + *text + "\", a medium that is not known here; air takes its place.");
             }
         } else {
             outside = read.number("ext_eta", outside);

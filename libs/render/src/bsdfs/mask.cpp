@@ -11,11 +11,14 @@ namespace {
 /// scattering is that of the nested material.
 class Mask final : public Bsdf {
   public:
-    Mask(std::shared_ptr<const Bsdf> nested, NumberInput opacity) : nested_(std::move(nested)), opacity_(std::move(opacity)) {}
+    Mask(std::shared_ptr<const Bsdf> nested, NumberInput opacity)
+        : nested_(std::move(nested)), opacity_(std::move(opacity)) {}
 
     Color eval(const SurfaceInteraction& at, Vec3f wo, Vec3f wi) const override { return nested_->eval(at, wo, wi); }
     float pdf(const SurfaceInteraction& at, Vec3f wo, Vec3f wi) const override { return nested_->pdf(at, wo, wi); }
-    EvalPdf evalPdf(const SurfaceInteraction& at, Vec3f wo, Vec3f wi) const override { return nested_->evalPdf(at, wo, wi); }
+    EvalPdf evalPdf(const SurfaceInteraction& at, Vec3f wo, Vec3f wi) const override {
+        return nested_->evalPdf(at, wo, wi);
+    }
     std::optional<BsdfSample> sample(const SurfaceInteraction& at, Vec3f wo, float uLobe, Vec2f u) const override {
         return nested_->sample(at, wo, uLobe, u);
     }

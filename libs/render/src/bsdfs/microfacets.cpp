@@ -62,7 +62,7 @@ float Microfacets::maskingG1(Vec3f v, Vec3f m) const {
         return 2.f * z / (z + std::sqrt(z2 + across));
     }
     const float a = std::abs(v.z) / std::sqrt(across);
-    if (a > 4.f) return 1.f;    // Lambda < 1e-9
+    if (a > 4.f) return 1.f;  // Lambda < 1e-9
     const float a2 = a * a;
     if (a2 == 0.f) return 0.f;
     // Heitz 2014, equation 72, without cancellation at small a: G1 = a / (a + a Lambda).

@@ -21,8 +21,8 @@ class Microfacets {
 
     /// D(m), per steradian: integrates to 1 over the projected hemisphere (Heitz 2014, equation 11).
     float density(Vec3f m) const;
-    /// Smith's G1: share of the normals m that v sees. 0 if v is on the other side of the microfacet than of the surface.
-    /// v may be on either side.
+    /// Smith's G1: share of the normals m that v sees. 0 if v is on the other side of the microfacet than of the
+    /// surface. v may be on either side.
     float maskingG1(Vec3f v, Vec3f m) const;
     /// Normal with density visiblePdf(v, m).
     Vec3f sampleVisible(Vec3f v, Vec2f u) const;

@@ -19,9 +19,12 @@ struct Case {
 
 std::vector<Case> cases() {
     using Type = Microfacets::Type;
-    return {{"beckmann 0.1", {Type::beckmann, 0.1f, 0.1f}},   {"beckmann 0.6", {Type::beckmann, 0.6f, 0.6f}},
-            {"beckmann 0.2 x 0.7", {Type::beckmann, 0.2f, 0.7f}}, {"ggx 0.1", {Type::ggx, 0.1f, 0.1f}},
-            {"ggx 0.6", {Type::ggx, 0.6f, 0.6f}},             {"ggx 0.2 x 0.7", {Type::ggx, 0.2f, 0.7f}}};
+    return {{"beckmann 0.1", {Type::beckmann, 0.1f, 0.1f}},
+            {"beckmann 0.6", {Type::beckmann, 0.6f, 0.6f}},
+            {"beckmann 0.2 x 0.7", {Type::beckmann, 0.2f, 0.7f}},
+            {"ggx 0.1", {Type::ggx, 0.1f, 0.1f}},
+            {"ggx 0.6", {Type::ggx, 0.6f, 0.6f}},
+            {"ggx 0.2 x 0.7", {Type::ggx, 0.2f, 0.7f}}};
 }
 
 constexpr double kHalfPi = std::numbers::pi / 2;
@@ -29,7 +32,8 @@ constexpr double kHalfPi = std::numbers::pi / 2;
 /// Seen from above, the facets cover the surface exactly once.
 TEST(Microfacets, ProjectedAreaIsOne) {
     for (const Case& c : cases()) {
-        const double area = testing::integrateDirections(0, kHalfPi, [&](Vec3f m) { return static_cast<double>(c.facets.density(m) * m.z); });
+        const double area = testing::integrateDirections(
+            0, kHalfPi, [&](Vec3f m) { return static_cast<double>(c.facets.density(m) * m.z); });
         EXPECT_NEAR(area, 1.0, 1e-3) << c.name;
     }
 }
@@ -39,7 +43,8 @@ TEST(Microfacets, VisibleProjectedAreaIsOne) {
     for (const Case& c : cases()) {
         for (const double theta : {0.0, 0.6, 1.2, 1.5}) {
             const Vec3f v = testing::directionOf(theta, 0.8);
-            const double area = testing::integrateDirections(0, kHalfPi, [&](Vec3f m) { return static_cast<double>(c.facets.visiblePdf(v, m)); });
+            const double area = testing::integrateDirections(
+                0, kHalfPi, [&](Vec3f m) { return static_cast<double>(c.facets.visiblePdf(v, m)); });
             EXPECT_NEAR(area, 1.0, 1e-3) << c.name << " at " << theta;
         }
     }

@@ -13,8 +13,12 @@ namespace {
 class Plastic final : public Bsdf {
   public:
     Plastic(float eta, ColorInput diffuse, ColorInput specular, bool nonlinear)
-        : eta_(eta), invEta2_(1.f / square(eta)), internalReflectance_(fresnelDiffuseReflectance(1.f / eta)),
-          nonlinear_(nonlinear), diffuse_(std::move(diffuse)), specular_(std::move(specular)) {
+        : eta_(eta),
+          invEta2_(1.f / square(eta)),
+          internalReflectance_(fresnelDiffuseReflectance(1.f / eta)),
+          nonlinear_(nonlinear),
+          diffuse_(std::move(diffuse)),
+          specular_(std::move(specular)) {
         const float d = luminance(diffuse_.mean()), s = luminance(specular_.mean());
         specularWeight_ = d + s > 0.f ? s / (d + s) : 1.f;
     }

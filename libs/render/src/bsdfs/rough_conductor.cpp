@@ -49,9 +49,7 @@ class RoughConductor final : public Bsdf {
     Color displayColor() const override { return reflectance_.mean() * fresnel(1.f); }
 
   private:
-    Color fresnel(float cosine) const {
-        return ior_.ideal ? Color(1.f) : fresnelConductor(cosine, ior_.eta, ior_.k);
-    }
+    Color fresnel(float cosine) const { return ior_.ideal ? Color(1.f) : fresnelConductor(cosine, ior_.eta, ior_.k); }
 
     Roughness roughness_;
     ConductorIor ior_;

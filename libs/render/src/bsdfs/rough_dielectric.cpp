@@ -14,7 +14,9 @@ namespace {
 class RoughDielectric final : public Bsdf {
   public:
     RoughDielectric(Roughness roughness, float eta, ColorInput reflectance, ColorInput transmittance)
-        : roughness_(std::move(roughness)), eta_(eta), reflectance_(std::move(reflectance)),
+        : roughness_(std::move(roughness)),
+          eta_(eta),
+          reflectance_(std::move(reflectance)),
           transmittance_(std::move(transmittance)) {}
 
     Color eval(const SurfaceInteraction& at, Vec3f wo, Vec3f wi) const override { return evalPdf(at, wo, wi).value; }
@@ -67,7 +69,8 @@ class RoughDielectric final : public Bsdf {
         return m.z < 0.f ? -m : m;
     }
 
-    /// Density of wi: of the visible facet, times the Jacobian of reflection or refraction, times the lobe's probability.
+    /// Density of wi: of the visible facet, times the Jacobian of reflection or refraction, times the lobe's
+    /// probability.
     float density(const Microfacets& facets, Vec3f wo, Vec3f wi, Vec3f m, float reflectance) const {
         if (wo.z * wi.z == 0.f) return 0.f;
         const float visible = facets.density(m) * facets.maskingG1(wo, m) / std::abs(wo.z);
@@ -97,12 +100,14 @@ std::shared_ptr<Bsdf> makeRoughDielectric(PropertyReader& read, FactoryContext& 
     Roughness roughness = readRoughness(read, context);
     const float eta = readRelativeIor(read, "bk7", "air");
     if (eta == 1.f) {
-        read.report(read.description() + " has the same index of refraction on both sides, so that light goes straight on.");
+        read.report(read.description() +
+                    " has the same index of refraction on both sides, so that light goes straight on.");
         return makeDielectric(read, context);
     }
     ColorInput reflectance = readColor(read, context, "specular_reflectance", Color(1.f));
     ColorInput transmittance = readColor(read, context, "specular_transmittance", Color(1.f));
-    return std::make_shared<RoughDielectric>(std::move(roughness), eta, std::move(reflectance), std::move(transmittance));
+    return std::make_shared<RoughDielectric>(std::move(roughness), eta, std::move(reflectance),
+                                             std::move(transmittance));
 }
 
 }  // namespace emca::render

@@ -10,15 +10,20 @@ namespace emca::render {
 
 namespace {
 
-/// Plastic (see plastic.cpp) with a rough coat: what passes the coat in either direction is the transmittance of a rough
-/// boundary instead of 1 - F.
+/// Plastic (see plastic.cpp) with a rough coat: what passes the coat in either direction is the transmittance of a
+/// rough boundary instead of 1 - F.
 class RoughPlastic final : public Bsdf {
   public:
     RoughPlastic(Microfacets facets, float eta, ColorInput diffuse, ColorInput specular, bool nonlinear)
-        : facets_(facets), eta_(eta), invEta2_(1.f / square(eta)), transmittance_(facets, eta),
+        : facets_(facets),
+          eta_(eta),
+          invEta2_(1.f / square(eta)),
+          transmittance_(facets, eta),
           // Reciprocity of the boundary: n_in^2 T_in = n_out^2 T_out for diffuse light.
-          internalReflectance_(1.f - transmittance_.diffuse() * invEta2_), nonlinear_(nonlinear),
-          diffuse_(std::move(diffuse)), specular_(std::move(specular)) {
+          internalReflectance_(1.f - transmittance_.diffuse() * invEta2_),
+          nonlinear_(nonlinear),
+          diffuse_(std::move(diffuse)),
+          specular_(std::move(specular)) {
         const float d = luminance(diffuse_.mean()), s = luminance(specular_.mean());
         specularWeight_ = d + s > 0.f ? s / (d + s) : 1.f;
     }
@@ -90,7 +95,8 @@ std::shared_ptr<Bsdf> makeRoughPlastic(PropertyReader& read, FactoryContext& con
     }
     if (roughness.alphaU.mean() != roughness.alphaV.mean()) {
         alpha = std::sqrt(roughness.alphaU.mean() * roughness.alphaV.mean());
-        read.report(read.description() + " has two roughnesses, but this material is isotropic; their geometric mean is used.");
+        read.report(read.description() +
+                    " has two roughnesses, but this material is isotropic; their geometric mean is used.");
     }
     const float eta = readRelativeIor(read, "polypropylene", "air");
     ColorInput diffuse = readColor(read, context, "diffuse_reflectance", Color(0.5f));

@@ -16,8 +16,10 @@ constexpr double kMinExpected = 5;  ///< below it the chi-square distribution is
 constexpr int kMaxDepth = 7;
 
 double gauss4x4(const Rectangle& r, const std::function<double(Vec2d)>& f) {
-    static constexpr std::array<double, 4> kNodes = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
-    static constexpr std::array<double, 4> kWeights = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+    static constexpr std::array<double, 4> kNodes = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                                     0.8611363115940526};
+    static constexpr std::array<double, 4> kWeights = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                                       0.3478548451374538};
     const double cx = 0.5 * (r.x0 + r.x1), hx = 0.5 * (r.x1 - r.x0);
     const double cy = 0.5 * (r.y0 + r.y1), hy = 0.5 * (r.y1 - r.y0);
     double sum = 0;
@@ -31,7 +33,8 @@ double gauss4x4(const Rectangle& r, const std::function<double(Vec2d)>& f) {
 
 double refine(const Rectangle& r, double coarse, double tolerance, int depth, const std::function<double(Vec2d)>& f) {
     const double xm = 0.5 * (r.x0 + r.x1), ym = 0.5 * (r.y0 + r.y1);
-    const std::array<Rectangle, 4> parts = {{{r.x0, xm, r.y0, ym}, {xm, r.x1, r.y0, ym}, {r.x0, xm, ym, r.y1}, {xm, r.x1, ym, r.y1}}};
+    const std::array<Rectangle, 4> parts = {
+        {{r.x0, xm, r.y0, ym}, {xm, r.x1, r.y0, ym}, {r.x0, xm, ym, r.y1}, {xm, r.x1, ym, r.y1}}};
     std::array<double, 4> fine{};
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i) sum += fine[i] = gauss4x4(parts[i], f);
@@ -95,12 +98,13 @@ ChiSquareResult judge(std::vector<Bin> bins, const ChiSquareOptions& options) {
     result.accepted = result.pValue >= result.threshold && !tooMuch && !stray && std::isfinite(result.statistic);
 
     char text[320];
-    std::snprintf(text, sizeof text,
-                  "chi-square %.5g with %d degrees of freedom: p = %.3g, %s %.3g; the density integrates to %.6f, %.6f of "
-                  "the samples were something, %.0f where the density is 0.",
-                  result.statistic, result.degreesOfFreedom, result.pValue,
-                  result.pValue >= result.threshold ? "not below" : "below", result.threshold, result.integral,
-                  drawn / options.samples, outside);
+    std::snprintf(
+        text, sizeof text,
+        "chi-square %.5g with %d degrees of freedom: p = %.3g, %s %.3g; the density integrates to %.6f, %.6f of "
+        "the samples were something, %.0f where the density is 0.",
+        result.statistic, result.degreesOfFreedom, result.pValue,
+        result.pValue >= result.threshold ? "not below" : "below", result.threshold, result.integral,
+        drawn / options.samples, outside);
     result.text = text;
     return result;
 }
@@ -135,14 +139,18 @@ ChiSquareResult testPoints(const Rectangle& domain, const std::function<std::opt
     std::vector<Bin> bins(static_cast<std::size_t>(options.xBins) * static_cast<std::size_t>(options.yBins));
     for (int i = 0; i < options.xBins; ++i) {
         for (int j = 0; j < options.yBins; ++j) {
-            const Rectangle cell{domain.x0 + i * xStep, domain.x0 + (i + 1) * xStep, domain.y0 + j * yStep, domain.y0 + (j + 1) * yStep};
-            bins[static_cast<std::size_t>(i * options.yBins + j)].expected = options.samples * std::max(0.0, integrate(cell, pdf));
+            const Rectangle cell{domain.x0 + i * xStep, domain.x0 + (i + 1) * xStep, domain.y0 + j * yStep,
+                                 domain.y0 + (j + 1) * yStep};
+            bins[static_cast<std::size_t>(i * options.yBins + j)].expected =
+                options.samples * std::max(0.0, integrate(cell, pdf));
         }
     }
     TestRandom random(options.seed);
     for (int n = 0; n < options.samples; ++n) {
         const std::optional<Vec2d> point = sample(random);
-        if (!point || !(point->x >= domain.x0 && point->x <= domain.x1 && point->y >= domain.y0 && point->y <= domain.y1)) continue;
+        if (!point ||
+            !(point->x >= domain.x0 && point->x <= domain.x1 && point->y >= domain.y0 && point->y <= domain.y1))
+            continue;
         const int i = std::min(static_cast<int>((point->x - domain.x0) / xStep), options.xBins - 1);
         const int j = std::min(static_cast<int>((point->y - domain.y0) / yStep), options.yBins - 1);
         bins[static_cast<std::size_t>(i * options.yBins + j)].observed += 1;

@@ -30,11 +30,11 @@ class TestRandom {
 
 struct ChiSquareOptions {
     int samples = 100'000;
-    int xBins = 16;             ///< directions: bins of theta; even, so that the horizon is between two bins
-    int yBins = 32;             ///< directions: bins of phi
+    int xBins = 16;  ///< directions: bins of theta; even, so that the horizon is between two bins
+    int yBins = 32;  ///< directions: bins of phi
     std::uint64_t seed = 1;
-    double significance = 0.01; ///< probability that any of `tests` correct samplers is rejected
-    int tests = 1;              ///< how many tests share that probability (Šidák's correction)
+    double significance = 0.01;  ///< probability that any of `tests` correct samplers is rejected
+    int tests = 1;               ///< how many tests share that probability (Šidák's correction)
 };
 
 struct ChiSquareResult {
@@ -43,13 +43,13 @@ struct ChiSquareResult {
     double threshold = 0;  ///< the p-value below which the sampler is rejected
     double statistic = 0;
     int degreesOfFreedom = 0;
-    double integral = 0;   ///< of the density; what is missing to 1 must be the share of samples that were nothing
-    std::string text;      ///< all of it in a sentence, for the test's message
+    double integral = 0;  ///< of the density; what is missing to 1 must be the share of samples that were nothing
+    std::string text;     ///< all of it in a sentence, for the test's message
 };
 
 /// Directions: all of the sphere, in the frame of the caller's choice.
-/// \param sample  draws one direction, or nothing (ended below the surface, delta lobe): that counts as a bin of its own
-/// \param pdf     density per steradian, also where sample() never goes
+/// \param sample  draws one direction, or nothing (ended below the surface, delta lobe): that counts as a bin of its
+/// own \param pdf     density per steradian, also where sample() never goes
 ChiSquareResult testDirections(const std::function<std::optional<Vec3f>(TestRandom&)>& sample,
                                const std::function<double(Vec3f)>& pdf, const ChiSquareOptions& options = {});
 

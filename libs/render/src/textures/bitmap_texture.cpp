@@ -13,9 +13,12 @@ using Wrap = BitmapTexture::Wrap;
 /// Brings a coordinate near the unit interval without a change of meaning, so that it fits an int once it is in pixels.
 float reduced(float t, Wrap wrap) {
     switch (wrap) {
-        case Wrap::repeat: return t - std::floor(t);
-        case Wrap::mirror: return t - 2.f * std::floor(0.5f * t);
-        default: return std::clamp(t, -1.f, 2.f);
+        case Wrap::repeat:
+            return t - std::floor(t);
+        case Wrap::mirror:
+            return t - 2.f * std::floor(0.5f * t);
+        default:
+            return std::clamp(t, -1.f, 2.f);
     }
 }
 
@@ -23,21 +26,27 @@ float reduced(float t, Wrap wrap) {
 int wrapped(int i, int size, Wrap wrap) {
     if (i >= 0 && i < size) return i;
     switch (wrap) {
-        case Wrap::repeat: i %= size; return i < 0 ? i + size : i;
+        case Wrap::repeat:
+            i %= size;
+            return i < 0 ? i + size : i;
         case Wrap::mirror:
             i %= 2 * size;
             if (i < 0) i += 2 * size;
             return i < size ? i : 2 * size - 1 - i;
-        case Wrap::clamp: return std::clamp(i, 0, size - 1);
-        case Wrap::zero: return -1;
-        case Wrap::one: return -2;
+        case Wrap::clamp:
+            return std::clamp(i, 0, size - 1);
+        case Wrap::zero:
+            return -1;
+        case Wrap::one:
+            return -2;
     }
     return 0;
 }
 
 }  // namespace
 
-BitmapTexture::BitmapTexture(std::shared_ptr<const TextureImage> image, UvMap map, Filter filter, Wrap wrapU, Wrap wrapV)
+BitmapTexture::BitmapTexture(std::shared_ptr<const TextureImage> image, UvMap map, Filter filter, Wrap wrapU,
+                             Wrap wrapV)
     : image_(std::move(image)), map_(map), filter_(filter), wrapU_(wrapU), wrapV_(wrapV) {}
 
 Color BitmapTexture::texel(int x, int y) const {

@@ -14,24 +14,31 @@ namespace {
 BitmapTexture::Wrap readWrap(PropertyReader& read, std::string_view name, BitmapTexture::Wrap fallback) {
     using Wrap = BitmapTexture::Wrap;
     static constexpr std::array<std::pair<std::string_view, Wrap>, 6> kNames = {{
-        {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp},
-        {"zero", Wrap::zero},     {"black", Wrap::zero},    {"one", Wrap::one},
+        {"repeat", Wrap::repeat},
+        {"mirror", Wrap::mirror},
+        {"clamp", Wrap::clamp},
+        {"zero", Wrap::zero},
+        {"black", Wrap::zero},
+        {"one", Wrap::one},
     }};
     const auto written = read.text(name);
     if (!written) return fallback;
     for (const auto& [text, wrap] : kNames) {
         if (*written == text) return wrap;
     }
-    read.reportProperty(name, "is \"" + *written + "\", but known are repeat, mirror, clamp, zero and one; repeat takes its place.");
+    read.reportProperty(
+        name, "is \"" + *written + "\", but known are repeat, mirror, clamp, zero and one; repeat takes its place.");
     return fallback;
 }
 
 BitmapTexture::Filter readFilter(PropertyReader& read) {
     const std::string written = read.text("filter_type", "bilinear");
     if (written == "nearest") return BitmapTexture::Filter::nearest;
-    // Scene files of 0.6 say "ewa" (the default there) and "trilinear", which differ only in how far images are blurred.
+    // Scene files of 0.6 say "ewa" (the default there) and "trilinear", which differ only in how far images are
+    // blurred.
     if (written != "bilinear" && written != "ewa" && written != "trilinear") {
-        read.reportProperty("filter_type", "is \"" + written + "\", but known are nearest and bilinear; bilinear takes its place.");
+        read.reportProperty("filter_type",
+                            "is \"" + written + "\", but known are nearest and bilinear; bilinear takes its place.");
     }
     return BitmapTexture::Filter::bilinear;
 }
@@ -77,7 +84,8 @@ std::shared_ptr<const Texture> makeCheckerboard(PropertyReader& read, FactoryCon
     const auto color = [&](std::string_view name, float fallback) {
         if (const auto nested = read.child(name)) {
             const auto texture = makeTexture(*nested, context);
-            if (!texture->isConstant()) read.reportAt(name, "A checkerboard's fields have one colour each; the texture's mean is used.");
+            if (!texture->isConstant())
+                read.reportAt(name, "A checkerboard's fields have one colour each; the texture's mean is used.");
             return texture->mean();
         }
         return read.color(name, Color(fallback));

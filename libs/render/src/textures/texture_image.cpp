@@ -17,7 +17,8 @@ constexpr int kMaxSide = 65536;
 constexpr std::size_t kMaxValues = std::size_t{1} << 31;
 
 std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -67,8 +68,9 @@ Read readOpen(OIIO::ImageInput& input, const std::string& name, const TextureIma
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const auto stride = static_cast<std::size_t>(spec.nchannels);
     if (width > kMaxSide || height > kMaxSide || stride > kMaxValues / pixels) {
-        return Error{ErrorCode::tooLarge, "The texture " + name + " has " + std::to_string(width) + " x " + std::to_string(height) +
-                                              " pixels of " + std::to_string(stride) + " channels, which is more than a texture may have."};
+        return Error{ErrorCode::tooLarge, "The texture " + name + " has " + std::to_string(width) + " x " +
+                                              std::to_string(height) + " pixels of " + std::to_string(stride) +
+                                              " channels, which is more than a texture may have."};
     }
     std::size_t first = 0, count = stride >= 3 ? 3 : 1;
     std::optional<float> gamma = options.gamma;
@@ -86,7 +88,8 @@ Read readOpen(OIIO::ImageInput& input, const std::string& name, const TextureIma
     if (spec.format == OIIO::TypeDesc::UINT8) {
         std::vector<std::uint8_t> bytes(pixels * stride);
         if (!input.read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, bytes.data())) {
-            return Error{ErrorCode::fileUnreadable, "The texture " + name + " cannot be read: " + input.geterror() + "."};
+            return Error{ErrorCode::fileUnreadable,
+                         "The texture " + name + " cannot be read: " + input.geterror() + "."};
         }
         std::array<float, 256> toLinear;
         for (std::size_t i = 0; i < toLinear.size(); ++i) toLinear[i] = decode(static_cast<float>(i) / 255.f, gamma);
@@ -119,7 +122,8 @@ Read TextureImage::read(const std::filesystem::path& file, const Options& option
         hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are in the file, not times alpha
         const auto input = OIIO::ImageInput::open(name, &hints);
         if (!input) {
-            return Error{ErrorCode::fileUnreadable, "The texture " + name + " cannot be opened as an image: " + OIIO::geterror() + "."};
+            return Error{ErrorCode::fileUnreadable,
+                         "The texture " + name + " cannot be opened as an image: " + OIIO::geterror() + "."};
         }
         return readOpen(*input, name, options);
     } catch (const std::bad_alloc&) {

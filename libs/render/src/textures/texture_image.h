@@ -31,14 +31,16 @@ class TextureImage {
     TextureImage(int width, int height, int channels, std::vector<float> linear);
     /// \param channels  1 or 3 bytes per pixel, rows from the top
     /// \param toLinear  value of each byte
-    TextureImage(int width, int height, int channels, std::vector<std::uint8_t> bytes, const std::array<float, 256>& toLinear);
+    TextureImage(int width, int height, int channels, std::vector<std::uint8_t> bytes,
+                 const std::array<float, 256>& toLinear);
 
     int width() const { return width_; }
     int height() const { return height_; }
     /// \param x, y  inside the image
     Color texel(int x, int y) const {
-        const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) *
-                               static_cast<std::size_t>(channels_);
+        const std::size_t at =
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) *
+            static_cast<std::size_t>(channels_);
         if (!bytes_.empty()) {
             if (channels_ == 1) return Color(toLinear_[bytes_[at]]);
             return {toLinear_[bytes_[at]], toLinear_[bytes_[at + 1]], toLinear_[bytes_[at + 2]]};

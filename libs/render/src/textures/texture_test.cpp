@@ -31,7 +31,8 @@ class TextureTest : public ::testing::Test {
     }
 
     template <typename T>
-    std::string write(const std::string& name, int width, int height, int channels, const std::vector<T>& pixels, OIIO::TypeDesc type) {
+    std::string write(const std::string& name, int width, int height, int channels, const std::vector<T>& pixels,
+                      OIIO::TypeDesc type) {
         const std::string path = (folder_ / name).string();
         const auto out = OIIO::ImageOutput::create(path);
         OIIO::ImageSpec spec(width, height, channels, type);
@@ -39,7 +40,8 @@ class TextureTest : public ::testing::Test {
         EXPECT_TRUE(out && out->open(path, spec) && out->write_image(type, pixels.data()) && out->close()) << path;
         return path;
     }
-    std::string writeBytes(const std::string& name, int width, int height, int channels, const std::vector<unsigned char>& pixels) {
+    std::string writeBytes(const std::string& name, int width, int height, int channels,
+                           const std::vector<unsigned char>& pixels) {
         return write(name, width, height, channels, pixels, OIIO::TypeDesc::UINT8);
     }
 
@@ -54,7 +56,8 @@ std::shared_ptr<const Texture> madeTexture(const std::shared_ptr<SceneNode>& fro
     return result;
 }
 
-std::shared_ptr<SceneNode> bitmap(const std::string& file, std::initializer_list<std::pair<std::string, Property>> more = {}) {
+std::shared_ptr<SceneNode> bitmap(const std::string& file,
+                                  std::initializer_list<std::pair<std::string, Property>> more = {}) {
     auto result = node("texture", "bitmap", more);
     result->properties["filename"] = {file, result->where};
     return result;
@@ -78,7 +81,8 @@ TEST_F(TextureTest, BytesAreSrgbUnlessToldOtherwise) {
 TEST_F(TextureTest, SixteenBitsAndFloats) {
     const std::string deep = write<std::uint16_t>("deep.png", 1, 1, 1, {32768}, OIIO::TypeDesc::UINT16);
     expectNear(madeTexture(bitmap(deep))->eval({0.5f, 0.5f}), Color(0.214051f), 1e-4f);
-    const std::string exr = write<float>("half.exr", 1, 1, 3, {0.5f, 7.f, std::numeric_limits<float>::quiet_NaN()}, OIIO::TypeDesc::FLOAT);
+    const std::string exr =
+        write<float>("half.exr", 1, 1, 3, {0.5f, 7.f, std::numeric_limits<float>::quiet_NaN()}, OIIO::TypeDesc::FLOAT);
     expectNear(madeTexture(bitmap(exr))->eval({0.5f, 0.5f}), {0.5f, 7.f, 0.f});
 }
 
@@ -106,7 +110,8 @@ TEST_F(TextureTest, BilinearBetweenPixelCentres) {
 TEST_F(TextureTest, Wrapping) {
     const std::string file = writeBytes("pair.png", 2, 1, 1, {0, 255});
     const auto at = [&](const char* mode, float u) {
-        return madeTexture(bitmap(file, {{"wrap_mode", std::string(mode)}, {"filter_type", std::string("nearest")}}))->evalScalar({u, 0.5f});
+        return madeTexture(bitmap(file, {{"wrap_mode", std::string(mode)}, {"filter_type", std::string("nearest")}}))
+            ->evalScalar({u, 0.5f});
     };
     // Fields of width 1/2: repeat 01|01, mirror 01|10.
     EXPECT_NEAR(at("repeat", 1.25f), 0.f, 1e-6f);
@@ -121,7 +126,8 @@ TEST_F(TextureTest, Wrapping) {
     EXPECT_NEAR(at("one", -1e6f), 1.f, 1e-6f);
     const auto bilinear = madeTexture(bitmap(file));
     EXPECT_NEAR(bilinear->evalScalar({0.f, 0.f}), 0.5f, 1e-6f) << "across the seam";
-    for (const float odd : {1e30f, -1e30f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), -1e-30f, 1.f}) {
+    for (const float odd : {1e30f, -1e30f, std::numeric_limits<float>::infinity(),
+                            std::numeric_limits<float>::quiet_NaN(), -1e-30f, 1.f}) {
         EXPECT_TRUE(isFinite(bilinear->eval({odd, odd}))) << odd;
         EXPECT_TRUE(std::isfinite(at("mirror", odd)) && std::isfinite(at("zero", odd))) << odd;
     }
@@ -144,15 +150,18 @@ TEST_F(TextureTest, CoordinatesAreMapped) {
     const std::string file = writeBytes("eight.png", 8, 1, 1, {0, 36, 73, 109, 146, 182, 219, 255});
     const std::initializer_list<std::pair<std::string, Property>> map = {
         {"uscale", 0.5}, {"uoffset", 0.25}, {"filter_type", std::string("nearest")}, {"raw", true}};
-    EXPECT_NEAR(madeTexture(bitmap(file, map))->evalScalar({0.3f, 0.f}), 109.f / 255.f, 1e-6f) << "0.3 * 0.5 + 0.25 = 0.4: pixel 3";
-    const auto turned = madeTexture(bitmap(file, {{"to_uv", Transform::rotate({0, 0, 1}, 90)}, {"filter_type", std::string("nearest")}, {"raw", true}}));
+    EXPECT_NEAR(madeTexture(bitmap(file, map))->evalScalar({0.3f, 0.f}), 109.f / 255.f, 1e-6f)
+        << "0.3 * 0.5 + 0.25 = 0.4: pixel 3";
+    const auto turned = madeTexture(bitmap(
+        file, {{"to_uv", Transform::rotate({0, 0, 1}, 90)}, {"filter_type", std::string("nearest")}, {"raw", true}}));
     EXPECT_NEAR(turned->evalScalar({0.9f, -0.7f}), 182.f / 255.f, 1e-6f) << "u' = -v = 0.7: pixel 5";
 }
 
 TEST_F(TextureTest, BadFilesAreNamedAndGrey) {
     const std::string garbage = (folder_ / "garbage.png").string();
     std::ofstream(garbage) << "this is no picture";
-    const std::string cut = write<float>("whole.exr", 64, 64, 3, std::vector<float>(64 * 64 * 3, 0.3f), OIIO::TypeDesc::FLOAT);
+    const std::string cut =
+        write<float>("whole.exr", 64, 64, 3, std::vector<float>(64 * 64 * 3, 0.3f), OIIO::TypeDesc::FLOAT);
     std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
     for (const std::string& file : {std::string("absent.png"), garbage, cut, folder_.string()}) {
         std::vector<Diagnostic> diagnostics;

@@ -19,7 +19,8 @@ class UvMap {
 };
 
 /// uscale, vscale (or uvscale for both), uoffset, voffset; and to_uv, a transform of the points (u, v, 0), which is
-/// applied first. Scene files for Mitsuba 0.4 to 0.6 carry to_uv too, but it never did anything there, nor does it here.
+/// applied first. Scene files for Mitsuba 0.4 to 0.6 carry to_uv too, but it never did anything there, nor does it
+/// here.
 UvMap readUvMap(PropertyReader& read);
 
 }  // namespace emca::render
