@@ -19,6 +19,12 @@ bool parsePort(std::string_view text, std::uint16_t& port) {
     return true;
 }
 
+/// Digits, colons, dots, and the name of an interface after '%'.
+bool looksLikeV6(std::string_view text) {
+    return text.substr(0, text.find('%')).find_first_not_of("0123456789abcdefABCDEF:.") == text.npos &&
+           text.find_first_of(" \t\r\n/[]") == text.npos;
+}
+
 bool isNumber(std::string_view text) { return !text.empty() && text.find_first_not_of("0123456789") == text.npos; }
 
 }  // namespace
@@ -34,12 +40,14 @@ Result<Address> Address::parse(const std::string& text) {
         const auto end = rest.find(']');
         if (end == rest.npos || end == 1) return unreadable(text);
         address.host = rest.substr(1, end - 1);
+        if (!looksLikeV6(address.host)) return unreadable(text);
         rest.remove_prefix(end + 1);
         if (!rest.empty() && (rest[0] != ':' || !parsePort(rest.substr(1), address.port))) return unreadable(text);
         return address;
     }
     const auto colon = rest.find(':');
     if (colon != rest.npos && rest.find(':', colon + 1) != rest.npos) {  // an IPv6 address without a port
+        if (!looksLikeV6(text)) return unreadable(text);
         address.host = text;
         return address;
     }

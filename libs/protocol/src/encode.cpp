@@ -11,7 +11,10 @@ namespace {
 using Encoded = std::pair<wire::Body, Offset<void>>;
 
 template <typename T>
-Encoded body(Offset<T> offset) { return {wire::BodyTraits<T>::enum_value, offset.Union()}; }
+Encoded body(Offset<T> offset) {
+    constexpr wire::Body kKind = wire::BodyTraits<T>::enum_value;  // itself it has no address
+    return {kKind, offset.Union()};
+}
 
 Offset<wire::Settings> encodeSettings(Builder& b, const Settings& s) {
     const auto integrator = text(b, s.integrator), sampler = text(b, s.sampler);
