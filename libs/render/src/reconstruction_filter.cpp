@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace emca::render {
 
 namespace {
 
 constexpr double kRadiusInDeviations = 4;  // as Mitsuba's
-constexpr std::size_t kInverseIntervals = 1024;
+constexpr std::size_t kBins = 1024;
 
 /// Gaussian of deviation 1, lowered by its value at the radius, and its integral from the left end to x.
 double loweredGaussian(double x) {
@@ -21,17 +22,6 @@ double loweredIntegral(double x) {
     const double root = std::sqrt(0.5);
     const double gaussian = std::sqrt(std::acos(-1.0) / 2) * (std::erf(x * root) + std::erf(kRadius * root));
     return gaussian - std::exp(-0.5 * kRadius * kRadius) * (x + kRadius);
-}
-
-/// x at which the integral reaches a share of the whole. The integral grows, so bisection always finds it.
-double invertIntegral(double share) {
-    const double wanted = share * loweredIntegral(kRadiusInDeviations);
-    double low = -kRadiusInDeviations, high = kRadiusInDeviations;
-    for (int step = 0; step < 60; ++step) {
-        const double middle = 0.5 * (low + high);
-        (loweredIntegral(middle) < wanted ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -49,11 +39,14 @@ ReconstructionFilter ReconstructionFilter::gaussian(float standardDeviation) {
     ReconstructionFilter filter(FilterKind::gaussian, static_cast<float>(kRadiusInDeviations) * standardDeviation);
     filter.standardDeviation_ = standardDeviation;
     filter.normalisation_ = static_cast<float>(1 / (loweredIntegral(kRadiusInDeviations) * double(standardDeviation)));
-    filter.inverse_.resize(kInverseIntervals + 1);
-    for (std::size_t i = 0; i <= kInverseIntervals; ++i) {
-        const double share = static_cast<double>(i) / kInverseIntervals;
-        filter.inverse_[i] = static_cast<float>(invertIntegral(share) * double(standardDeviation));
+    std::vector<float> shares;
+    double before = 0;
+    for (std::size_t i = 1; i <= kBins; ++i) {
+        const double integral = loweredIntegral(kRadiusInDeviations * (2 * static_cast<double>(i) / kBins - 1));
+        shares.push_back(static_cast<float>(integral - before));
+        before = integral;
     }
+    filter.bins_ = Distribution1D(shares);
     return filter;
 }
 
@@ -62,10 +55,8 @@ float ReconstructionFilter::sample(float u) const {
         case FilterKind::tent:
             return radius_ * (u < 0.5f ? std::sqrt(2.f * u) - 1.f : 1.f - std::sqrt(2.f * (1.f - u)));
         case FilterKind::gaussian: {
-            const float place = u * kInverseIntervals;
-            const auto index = std::min(static_cast<std::size_t>(place), kInverseIntervals - 1);
-            const float fraction = place - static_cast<float>(index);
-            return inverse_[index] + fraction * (inverse_[index + 1] - inverse_[index]);
+            const Distribution1D::Choice bin = bins_.sample(u);
+            return radius_ * (2.f * (static_cast<float>(bin.index) + bin.remainder) / kBins - 1.f);
         }
         case FilterKind::box: break;
     }

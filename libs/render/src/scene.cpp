@@ -10,7 +10,7 @@ namespace emca::render {
 
 namespace {
 
-constexpr float kShadowShortening = 1.f - 1e-4f;  ///< shadow rays end before the light, whose surface is no occluder
+constexpr float kShadowShortening = 1.f - 1e-5f;  ///< the light's own surface is no occluder
 constexpr int kMaximumMaskLayers = 10000;         ///< beyond, a shadow ray counts as blocked
 
 RTCRay toEmbree(const Ray& ray) {
@@ -129,7 +129,10 @@ bool Scene::intersect(const Ray& ray, SurfaceInteraction& at) const {
 
 float Scene::transmittance(const SurfaceInteraction& from, const EmitterSample& light) const {
     const Vec3f origin = offsetOrigin(from.position, from.geometricNormal, from.positionError, light.direction);
-    Ray ray{origin, light.direction, 0.f, light.distance * kShadowShortening};
+    // Aimed anew from there: parallel to the old direction it would pass by the limb of a sphere.
+    const Vec3f toLight = light.position - origin;
+    const float distance = length(toLight);
+    Ray ray{origin, toLight / distance, 0.f, distance * kShadowShortening};
     if (!hasMasks_) {
         RTCRay shadow = toEmbree(ray);
         EmbreeContext context = makeEmbreeContext();

@@ -11,7 +11,8 @@ std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
     const auto point = shape_.sample(from, u);
     if (!point) return std::nullopt;
     if (dot(point->normal, point->direction) >= 0.f) return std::nullopt;  // seen from behind
-    return EmitterSample{point->position, point->direction, point->distance,
+    // A shadow ray ends a little above the light, as it starts a little above the lit surface.
+    return EmitterSample{point->position + point->normal * point->positionError, point->direction, point->distance,
                          constant_ ? mean_ : radiance_->eval(point->uv), point->pdf};
 }
 

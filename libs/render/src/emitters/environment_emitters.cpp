@@ -73,7 +73,7 @@ Color EnvironmentMap::lookup(Vec2f uv) const {
 Vec2f EnvironmentMap::uvOf(Vec3f local) const {
     const float phi = std::atan2(local.x, -local.z) * (0.5f * kInvPi);
     return {std::min(phi < 0.f ? phi + 1.f : phi, kOneMinusEpsilon),
-            std::acos(std::clamp(local.y, -1.f, 1.f)) * kInvPi};
+            std::atan2(std::hypot(local.x, local.z), local.y) * kInvPi};  // acos is blind near the poles
 }
 
 Color EnvironmentMap::environment(Vec3f direction) const { return lookup(uvOf(normalize(toLocal_.vector(direction)))); }
@@ -92,7 +92,7 @@ std::optional<EmitterSample> EnvironmentMap::sample(Vec3f from, Vec2f u) const {
 
 float EnvironmentMap::environmentPdf(Vec3f direction) const {
     const Vec3f local = normalize(toLocal_.vector(direction));
-    const float sine = safeSqrt(1.f - local.y * local.y);
+    const float sine = std::hypot(local.x, local.z);
     return sine > 0.f ? distribution_.pdf(uvOf(local)) / (2.f * kPi * kPi * sine) : 0.f;
 }
 

@@ -72,6 +72,7 @@ std::optional<ShapeSample> DiskShape::sample(Vec3f from, Vec2f u) const {
     ShapeSample sample;
     sample.position = narrow(center_ + axisX_ * double(p.x) + axisY_ * double(p.y));
     sample.normal = narrow(normal_) * normalSign_;
+    sample.positionError = positionError_;
     const float angle = std::atan2(p.y, p.x) * (0.5f * kInvPi);
     sample.uv = {std::sqrt(p.x * p.x + p.y * p.y), angle < 0.f ? angle + 1.f : angle};
     if (!completeAreaSample(from, area_, sample)) return std::nullopt;

@@ -84,6 +84,7 @@ std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
     ShapeSample sample;
     sample.position = a * w + b * bary.x + c * bary.y;
     sample.normal = faces_[chosen.index].normal;
+    sample.positionError = faces_[chosen.index].positionError;
     const bool mapped = !mesh_.uvs.empty();
     sample.uv = mapped ? mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y : bary;
     if (!completeAreaSample(from, area_, sample)) return std::nullopt;

@@ -84,6 +84,7 @@ std::optional<ShapeSample> SphereShape::sample(Vec3f from, Vec2f u) const {
     ShapeSample sample;
     sample.position = narrow(center_ + normal * radius_);
     sample.normal = narrow(normal) * normalSign_;
+    sample.positionError = positionError_;
     sample.uv = uvOf(normalize(toObject_.vector(narrow(normal))));
     sample.direction = narrow(direction);
     sample.distance = static_cast<float>(toSurface);
@@ -96,6 +97,7 @@ std::optional<ShapeSample> SphereShape::sampleFromInside(Vec3f from, Vec2f u) co
     ShapeSample sample;
     sample.position = narrow(center_ + widen(normal) * radius_);
     sample.normal = normal * normalSign_;
+    sample.positionError = positionError_;
     sample.uv = uvOf(normalize(toObject_.vector(normal)));
     if (!completeAreaSample(from, area(), sample)) return std::nullopt;
     return sample;

@@ -11,7 +11,7 @@ namespace emca::render {
 
 /// Light that may arrive at a point: a place on an emitter, chosen at random.
 struct EmitterSample {
-    Vec3f position;      ///< on the light; of distant light, a point outside the scene. World space
+    Vec3f position;      ///< just above the light's surface; of distant light, outside the scene. World space
     Vec3f direction;     ///< unit, from the lit point to the light
     float distance = 0;  ///< to `position`, scene units
     Color radiance;      ///< towards the lit point, before occlusion; of delta lights irradiance on a plane facing them

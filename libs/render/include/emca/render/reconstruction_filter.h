@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "emca/core/vector.h"
+#include "emca/render/distribution.h"
 
 namespace emca::render {
 
@@ -40,7 +40,7 @@ class ReconstructionFilter {
     float radius_;
     float standardDeviation_ = 0;
     float normalisation_ = 1;      ///< gaussian: 1 / integral
-    std::vector<float> inverse_;   ///< gaussian: offsets at evenly spaced values of the cumulative distribution
+    Distribution1D bins_;          ///< gaussian: share of each of many equal pieces of [-radius, radius]
 };
 
 }  // namespace emca::render

@@ -30,6 +30,7 @@ struct ShapeSample {
     Vec3f direction;            ///< unit, from the place that asked to `position`
     float distance = 0;
     Vec3f normal;               ///< geometric, unit, towards the front
+    float positionError = 0;    ///< as SurfaceInteraction's
     Vec2f uv;
     float pdf = 0;              ///< per steradian as seen from the place that asked
 };
