@@ -202,6 +202,11 @@ TEST(Stranger, AnswersAnotherQuestion) {
         send(socket, receive(socket), protocol::Done{});
         send(socket, receive(socket), protocol::ImageRows{0, 1, std::vector<Color>(1), std::vector<float>(1), {}, true});
         send(socket, receive(socket), protocol::SceneChunk{5, 0, 0, {}, true});
+        protocol::TraceResult other;  // of no pixel at all
+        send(socket, receive(socket), other);
+        other.pixels = {{3, 4}};
+        other.replays.resize(1);
+        send(socket, receive(socket), other);
         const std::uint64_t last = receive(socket);
         send(socket, last + 50, protocol::Done{});  // of a call that was cancelled, say: ignored
         send(socket, last, Camera{});
@@ -212,6 +217,8 @@ TEST(Stranger, AnswersAnotherQuestion) {
     EXPECT_CODE((*connection)->info(), protocolViolation);
     EXPECT_CODE((*connection)->render(), protocolViolation);
     EXPECT_CODE((*connection)->meshes(), protocolViolation);
+    EXPECT_CODE((*connection)->tracePixel({4, 3}), protocolViolation);
+    EXPECT_CODE((*connection)->tracePixel({4, 3}), protocolViolation);
     EXPECT_TRUE((*connection)->camera().ok());
 }
 
