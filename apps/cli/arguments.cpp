@@ -7,7 +7,8 @@
 
 namespace emca::cli {
 
-Result<std::uint64_t> parseWhole(const std::string& what, const std::string& text, std::uint64_t smallest, std::uint64_t largest) {
+Result<std::uint64_t> parseWhole(const std::string& what, const std::string& text, std::uint64_t smallest,
+                                 std::uint64_t largest) {
     std::uint64_t value = 0;
     const char* const last = text.data() + text.size();
     const auto [end, code] = std::from_chars(text.data(), last, value);

@@ -11,7 +11,8 @@
 namespace emca::cli {
 
 /// Errors: invalidArgument, naming `what` and the range.
-Result<std::uint64_t> parseWhole(const std::string& what, const std::string& text, std::uint64_t smallest, std::uint64_t largest);
+Result<std::uint64_t> parseWhole(const std::string& what, const std::string& text, std::uint64_t smallest,
+                                 std::uint64_t largest);
 Result<Pixel> parsePixel(const std::string& x, const std::string& y);
 
 /// Options that name how to render; empty: as the scene says.

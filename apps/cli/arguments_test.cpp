@@ -11,10 +11,12 @@ namespace {
 TEST(Arguments, WholeNumbersOnly) {
     EXPECT_EQ(*parseWhole("X", "0", 0, 10), 0u);
     EXPECT_EQ(*parseWhole("X", "18446744073709551615", 0, ~std::uint64_t(0)), ~std::uint64_t(0));
-    for (const char* text : {"", "-1", "+1", " 1", "1 ", "1.0", "1e3", "0x10", "eleven", "11", "18446744073709551616", "١"}) {
+    for (const char* text :
+         {"", "-1", "+1", " 1", "1 ", "1.0", "1e3", "0x10", "eleven", "11", "18446744073709551616", "١"}) {
         const auto result = parseWhole("X", text, 0, 10);
         ASSERT_FALSE(result.ok()) << text;
-        EXPECT_EQ(result.error().message, std::string("X is \"") + text + "\"; it must be a whole number from 0 to 10.");
+        EXPECT_EQ(result.error().message,
+                  std::string("X is \"") + text + "\"; it must be a whole number from 0 to 10.");
     }
 }
 

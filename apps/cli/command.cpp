@@ -13,7 +13,8 @@
 namespace emca::cli {
 namespace {
 
-constexpr const char* kDescription = "Asks a renderer that serves EMCA (emca-render SCENE.xml --serve PORT) what a pixel is made of.";
+constexpr const char* kDescription =
+    "Asks a renderer that serves EMCA (emca-render SCENE.xml --serve PORT) what a pixel is made of.";
 constexpr const char* kExamples =
     "Examples:\n"
     "  emca info localhost:50013\n"
@@ -41,18 +42,21 @@ int exitCodeOf(ErrorCode code) {
         case ErrorCode::fileUnreadable:
         case ErrorCode::fileUnwritable:
         case ErrorCode::tooLarge:
-        case ErrorCode::parseFailed: return Exit::input;
+        case ErrorCode::parseFailed:
+            return Exit::input;
         case ErrorCode::connectionFailed:
         case ErrorCode::connectionLost:
         case ErrorCode::timedOut:
         case ErrorCode::protocolViolation:
         case ErrorCode::versionMismatch:
         case ErrorCode::refused:
-        case ErrorCode::addressInUse: return Exit::connection;
+        case ErrorCode::addressInUse:
+            return Exit::connection;
         case ErrorCode::cancelled:
         case ErrorCode::internal:
         case ErrorCode::rendererFailed:
-        case ErrorCode::outOfMemory: break;
+        case ErrorCode::outOfMemory:
+            break;
     }
     return Exit::server;
 }
@@ -83,7 +87,8 @@ int run(std::vector<std::string> arguments) {
 
     const auto negative = std::find_if(arguments.begin(), arguments.end(), isNegativeNumber);
     if (negative != arguments.end())
-        return failUsage(fmt::format("{} is negative; coordinates, samples and seeds are whole numbers from 0 on.", *negative));
+        return failUsage(
+            fmt::format("{} is negative; coordinates, samples and seeds are whole numbers from 0 on.", *negative));
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
         app.parse(std::move(arguments));

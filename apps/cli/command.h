@@ -15,7 +15,9 @@ class App;
 namespace emca::cli {
 
 /// How the program ends (docs/command-line.md).
-struct Exit { enum : int { ok = 0, assertionFalse = 1, usage = 2, input = 3, connection = 4, server = 5, interrupted = 130 }; };
+struct Exit {
+    enum : int { ok = 0, assertionFalse = 1, usage = 2, input = 3, connection = 4, server = 5, interrupted = 130 };
+};
 
 /// input: what was asked for cannot be; connection: no sane answer came; server: the renderer failed.
 int exitCodeOf(ErrorCode code);

@@ -123,7 +123,8 @@ TEST_F(CommandLine, IndicesStartAnywhere) {
 
 TEST_F(CommandLine, NonFiniteNumbersAreWords) {
     served.renderer.disturbReplay = [](Pixel, Color) { return Color(std::nanf(""), -INFINITY, 1); };
-    EXPECT_EQ(json({"pixel", address(), "0", "0", "--json"})["replay"]["replayed"].dump(), R"(["NaN","-Infinity",1.0])");
+    EXPECT_EQ(json({"pixel", address(), "0", "0", "--json"})["replay"]["replayed"].dump(),
+              R"(["NaN","-Infinity",1.0])");
     const Finished table = run({"pixel", address(), "0", "0"});
     EXPECT_NE(table.out.find("(NaN, -Infinity, 1.000)"), std::string::npos) << table.out;
 }
@@ -136,8 +137,11 @@ TEST_F(CommandLine, WrongUseIsTwo) {
     expectError({"pixel", address(), "1", "2", "--spp", "many"}, Exit::usage, "many");
     expectError({"pixel", address(), "1", "2", "--limit", "x"}, Exit::usage, "--limit");
     expectError({"render", address(), "-o", "a.exr", "--seed", "-3"}, Exit::usage, "-3");
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{}, {"frobnicate"}, {"pixel", address()}, {"render", address()}, {"info", address(), "--colour"}}) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                      {"frobnicate"},
+                                                      {"pixel", address()},
+                                                      {"render", address()},
+                                                      {"info", address(), "--colour"}}) {
         const Finished f = run(arguments);
         EXPECT_EQ(f.exitCode, Exit::usage) << testing::PrintToString(arguments);
         EXPECT_NE(f.err, "");
@@ -179,7 +183,8 @@ TEST_F(CommandLine, InterruptCancelsTheRender) {
     std::atomic<bool> cancelled{false};
     served.renderer.duringImage = [&](RequestMonitor& monitor) {
         begun.open();
-        for (int i = 0; i < 60000 && !monitor.cancelled(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int i = 0; i < 60000 && !monitor.cancelled(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         cancelled = monitor.cancelled();
     };
     const pid_t child = program.start({"render", address(), "-o", "a.exr"});

@@ -37,7 +37,9 @@ Json infoJson(const client::ServerInfo& info) {
     return out;
 }
 
-std::string joined(const std::vector<std::string>& words) { return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", ")); }
+std::string joined(const std::vector<std::string>& words) {
+    return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
+}
 
 std::string infoText(const client::ServerInfo& info) {
     Table table({{"renderer", Table::Align::left}, {printable(info.renderer), Table::Align::left}});
@@ -49,7 +51,8 @@ std::string infoText(const client::ServerInfo& info) {
     table.add({"latest render", info.latestRender == 0 ? "none yet" : fmt::format("{}", info.latestRender)});
     table.add({"capabilities", joined(info.capabilities)});
     table.add({"tools", joined(info.tools)});
-    table.add({"limits", fmt::format("{} spp, {} pixels a trace", info.maximumSamplesPerPixel, info.maximumPixelsPerTrace)});
+    table.add(
+        {"limits", fmt::format("{} spp, {} pixels a trace", info.maximumSamplesPerPixel, info.maximumPixelsPerTrace)});
     return table.text();
 }
 

@@ -55,7 +55,8 @@ Json toJson(const Value& value) { return std::visit(ToJson(), value); }
 namespace {
 
 bool isShort(const Json& json) {
-    return json.is_array() && json.size() <= 4 && std::none_of(json.begin(), json.end(), [](const Json& e) { return e.is_structured(); });
+    return json.is_array() && json.size() <= 4 &&
+           std::none_of(json.begin(), json.end(), [](const Json& e) { return e.is_structured(); });
 }
 
 /// As nlohmann's dump(2), but vectors and colours stay on one line: a person reads them as one thing.

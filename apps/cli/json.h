@@ -16,11 +16,11 @@ namespace emca::cli {
 /// Members stay in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-Json toJson(float value);   ///< the shortest decimal that reads back as this float: 0.1, not 0.10000000149011612
+Json toJson(float value);  ///< the shortest decimal that reads back as this float: 0.1, not 0.10000000149011612
 Json toJson(double value);
-Json toJson(Vec3f value);   ///< [x, y, z]
-Json toJson(Color value);   ///< [r, g, b]
-Json toJson(Pixel value);   ///< [x, y]
+Json toJson(Vec3f value);  ///< [x, y, z]
+Json toJson(Color value);  ///< [r, g, b]
+Json toJson(Pixel value);  ///< [x, y]
 Json toJson(const Value& value);
 
 /// null for nothing.

@@ -70,9 +70,12 @@ Json vertexJson(const PathSet& paths, Index vertex) {
 
 const char* name(LightEnd end) {
     switch (end) {
-        case LightEnd::hit: return "hit";
-        case LightEnd::connected: return "connected";
-        case LightEnd::automatic: break;
+        case LightEnd::hit:
+            return "hit";
+        case LightEnd::connected:
+            return "connected";
+        case LightEnd::automatic:
+            break;
     }
     return "automatic";
 }

@@ -18,7 +18,8 @@ TEST(PixelJson, HasTheMembersOfTheContract) {
     const Json json = pixelJson(exampleTrace());
     EXPECT_EQ(json["pixel"].dump(), "[3,4]");
     EXPECT_EQ(json["spp"], 2);
-    EXPECT_EQ(json["replay"].dump(), R"({"verdict":"close","rendered":[0.5,0.5,0.5],"replayed":[0.50001,0.50001,0.50001],"sums":"matches"})");
+    EXPECT_EQ(json["replay"].dump(),
+              R"({"verdict":"close","rendered":[0.5,0.5,0.5],"replayed":[0.50001,0.50001,0.50001],"sums":"matches"})");
     ASSERT_EQ(json["paths"].size(), 2u);
     EXPECT_EQ(keys(json["paths"][0]),
               (Keys{"sample", "part", "origin", "depth", "estimate", "data", "contributions", "vertices"}));
@@ -55,10 +56,12 @@ TEST(PixelJson, ValuesOfVertices) {
 
 TEST(PixelJson, MissingValuesAreNullAndMissingListsEmpty) {
     const Json json = pixelJson(exampleTrace());
-    EXPECT_EQ(json["paths"][1].dump(),
-              R"({"sample":9,"part":2,"origin":null,"depth":0,"estimate":null,"data":{},"contributions":[],"vertices":[]})");
-    EXPECT_EQ(json["paths"][0]["vertices"][1].dump(),
-              R"({"depth":2,"position":null,"event":null,"surface":null,"nee":[],"envmap":null,"estimate":null,"emission":null,"data":{}})");
+    EXPECT_EQ(
+        json["paths"][1].dump(),
+        R"({"sample":9,"part":2,"origin":null,"depth":0,"estimate":null,"data":{},"contributions":[],"vertices":[]})");
+    EXPECT_EQ(
+        json["paths"][0]["vertices"][1].dump(),
+        R"({"depth":2,"position":null,"event":null,"surface":null,"nee":[],"envmap":null,"estimate":null,"emission":null,"data":{}})");
 }
 
 TEST(PixelJson, UnknownVerdictHasNoRenderedColor) {

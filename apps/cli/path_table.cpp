@@ -22,17 +22,21 @@ constexpr double kDeviations = 3;
 
 std::string verdictLine(const Replay& replay) {
     switch (replay.verdict) {
-        case Verdict::exact: return fmt::format("replay exact: rendered and replayed {}, equal bits", formatColor(replay.replayed));
+        case Verdict::exact:
+            return fmt::format("replay exact: rendered and replayed {}, equal bits", formatColor(replay.replayed));
         case Verdict::close:
-            return fmt::format("replay close: rendered {}, replayed {}", formatColor(replay.rendered), formatColor(replay.replayed));
+            return fmt::format("replay close: rendered {}, replayed {}", formatColor(replay.rendered),
+                               formatColor(replay.replayed));
         case Verdict::different:
             return fmt::format("replay different: rendered {}, replayed {}; these paths did not make that pixel",
                                formatColor(replay.rendered), formatColor(replay.replayed));
-        case Verdict::unknown: break;
+        case Verdict::unknown:
+            break;
     }
-    return fmt::format("replay unknown: replayed {}; no render with these settings to compare with "
-                       "(`emca render` makes one, --against names an image)",
-                       formatColor(replay.replayed));
+    return fmt::format(
+        "replay unknown: replayed {}; no render with these settings to compare with "
+        "(`emca render` makes one, --against names an image)",
+        formatColor(replay.replayed));
 }
 
 std::string remarks(const client::Trace& trace) {
@@ -101,14 +105,22 @@ std::string eventLetters(const PathSet& paths, Index path) {
         if (!scattering) return paths.isEnvironment(vertex) ? "B" : "·";
         const std::string lobe = kLobes[std::min<std::size_t>(static_cast<std::size_t>(scattering->lobe), 4)];
         switch (scattering->event) {
-            case Event::reflect: return "R" + lobe;
-            case Event::transmit: return "T" + lobe;
-            case Event::volume: return "V" + lobe;
-            case Event::emission: return "O";
-            case Event::background: return "B";
-            case Event::absorb: return "x";
-            case Event::pass: return "Ts";
-            case Event::none: break;
+            case Event::reflect:
+                return "R" + lobe;
+            case Event::transmit:
+                return "T" + lobe;
+            case Event::volume:
+                return "V" + lobe;
+            case Event::emission:
+                return "O";
+            case Event::background:
+                return "B";
+            case Event::absorb:
+                return "x";
+            case Event::pass:
+                return "Ts";
+            case Event::none:
+                break;
         }
         return "·";
     };
@@ -124,7 +136,8 @@ std::string eventLetters(const PathSet& paths, Index path) {
 
 std::string pixelReport(const client::Trace& trace, const std::string& scene, std::size_t limit) {
     const PathSet& paths = trace.paths;
-    std::string text = fmt::format("pixel {} of {}, {} spp", analysis::formatPixel(trace.pixels.at(0)), printable(scene), trace.samplesPerPixel);
+    std::string text = fmt::format("pixel {} of {}, {} spp", analysis::formatPixel(trace.pixels.at(0)),
+                                   printable(scene), trace.samplesPerPixel);
     for (const std::string& setting : {trace.integrator, trace.sampler})
         if (!setting.empty()) text += ", " + printable(setting);
     text += fmt::format(", seed {}\n{}\n{}\n", trace.seed, verdictLine(trace.replays.at(0)), remarks(trace));
@@ -147,8 +160,9 @@ std::string pixelReport(const client::Trace& trace, const std::string& scene, st
     if (!outliers.empty() && report->considered < 2)
         text += fmt::format("* {} of {} paths are NaN or infinite.\n", outliers.size(), paths.pathCount());
     else if (!outliers.empty())
-        text += fmt::format("* {} of {} paths beyond mean ± {:.0f} standard deviations of luminance ({} ± {}).\n", outliers.size(),
-                            paths.pathCount(), kDeviations, formatNumber(report->mean), formatNumber(report->deviation));
+        text += fmt::format("* {} of {} paths beyond mean ± {:.0f} standard deviations of luminance ({} ± {}).\n",
+                            outliers.size(), paths.pathCount(), kDeviations, formatNumber(report->mean),
+                            formatNumber(report->deviation));
     if (cut) text += fmt::format("The {} brightest of {} paths; --limit 0 shows all.\n", limit, paths.pathCount());
     return text;
 }

@@ -26,20 +26,22 @@ Result<Color> colorIn(const std::string& file, const client::ServerInfo& info, P
     if (!image) return image.error();
     if (image->width() != info.width || image->height() != info.height)
         return Error{ErrorCode::invalidArgument,
-                     fmt::format("{} has {} x {} pixels, but the renderer's image {} x {}; compare with an image of the same scene and size.",
+                     fmt::format("{} has {} x {} pixels, but the renderer's image {} x {}; compare with an image of "
+                                 "the same scene and size.",
                                  file, image->width(), image->height(), info.width, info.height)};
     return image->color(pixel);
 }
 
 Result<void> checkInside(Pixel pixel, const client::ServerInfo& info) {
     if (pixel.x < info.width && pixel.y < info.height) return {};
-    return Error{ErrorCode::pixelOutOfRange,
-                 fmt::format("Pixel ({}, {}) is outside the image of {} x {} pixels; X goes from 0 to {}, Y from 0 to {}.", pixel.x,
-                             pixel.y, info.width, info.height, info.width - 1, info.height - 1)};
+    return Error{
+        ErrorCode::pixelOutOfRange,
+        fmt::format("Pixel ({}, {}) is outside the image of {} x {} pixels; X goes from 0 to {}, Y from 0 to {}.",
+                    pixel.x, pixel.y, info.width, info.height, info.width - 1, info.height - 1)};
 }
 
-Result<client::Trace> traceWithProgress(client::Connection& connection, Pixel pixel, const client::TraceOptions& options,
-                                        const InterruptGuard& interrupt) {
+Result<client::Trace> traceWithProgress(client::Connection& connection, Pixel pixel,
+                                        const client::TraceOptions& options, const InterruptGuard& interrupt) {
     ProgressBar bar("tracing");
     client::RequestObserver observer;
     observer.progress = [&bar](double fraction) { bar.update(fraction); };
@@ -89,11 +91,14 @@ void addPixelCommand(CLI::App& app, Run& run) {
     command->add_option("x", arguments->x, "column, from 0 at the left")->required()->type_name("X");
     command->add_option("y", arguments->y, "row, from 0 at the top")->required()->type_name("Y");
     addSettingsOptions(*command, arguments->settings);
-    command->add_option("--against", arguments->against, "compare with this image instead of the renderer's latest")->type_name("IMAGE");
-    command->add_option("--limit", arguments->limit, "show at most so many paths, the brightest (default 32, 0: all)")->type_name("N");
+    command->add_option("--against", arguments->against, "compare with this image instead of the renderer's latest")
+        ->type_name("IMAGE");
+    command->add_option("--limit", arguments->limit, "show at most so many paths, the brightest (default 32, 0: all)")
+        ->type_name("N");
     command->add_flag("--json", arguments->json, "everything that was recorded, for scripts");
-    command->footer("Examples:\n  emca pixel localhost:50013 117 64\n"
-                    "  emca pixel localhost:50013 117 64 --json | jq '.paths | max_by(.estimate[0])'");
+    command->footer(
+        "Examples:\n  emca pixel localhost:50013 117 64\n"
+        "  emca pixel localhost:50013 117 64 --json | jq '.paths | max_by(.estimate[0])'");
     command->callback([arguments, &run] { run = [arguments] { return runPixel(*arguments); }; });
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ namespace emca::cli {
 
 /// What a finished program left.
 struct Finished {
-    int exitCode = -1;   ///< -1 if a signal ended it
+    int exitCode = -1;  ///< -1 if a signal ended it
     std::string out, err;
 };
 

@@ -26,7 +26,8 @@ std::string progressLine(const std::string& title, double fraction, double elaps
     // The first moments say nothing about the rest.
     if (fraction > 0 && elapsedSeconds > 0.5) {
         const double left = elapsedSeconds * (1 - fraction) / fraction;
-        right += ", " + analysis::formatDuration(left >= 1 ? std::round(left) : left) + " left";
+        right +=
+            ", " + (left < 59.5 ? fmt::format("{:.0f} s", std::ceil(left)) : analysis::formatDuration(left)) + " left";
     }
     const std::size_t text = title.size() + 1 + right.size() + 1;
     if (text + 8 > columns) return (title + right).substr(0, columns > 0 ? columns - 1 : 0);

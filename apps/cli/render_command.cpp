@@ -41,11 +41,13 @@ Json renderJson(const client::Render& render, const std::filesystem::path& outpu
 void warnAboutFaults(const std::vector<analysis::FaultyPixel>& faulty) {
     if (faulty.empty()) return;
     const Pixel first = faulty.front().pixel;
-    fmt::print(stderr, "warning: {} {} NaN, infinite or negative; the first is {} (`emca pixel … {} {}` shows its paths)\n",
-               faulty.size(), faulty.size() == 1 ? "pixel is" : "pixels are", analysis::formatPixel(first), first.x, first.y);
+    fmt::print(
+        stderr, "warning: {} {} NaN, infinite or negative; the first is {} (`emca pixel … {} {}` shows its paths)\n",
+        faulty.size(), faulty.size() == 1 ? "pixel is" : "pixels are", analysis::formatPixel(first), first.x, first.y);
 }
 
-Result<client::Render> renderWithProgress(client::Connection& connection, const Settings& settings, const InterruptGuard& interrupt) {
+Result<client::Render> renderWithProgress(client::Connection& connection, const Settings& settings,
+                                          const InterruptGuard& interrupt) {
     client::RenderOptions options;
     apply(settings, options);
     options.preview = false;
@@ -79,8 +81,8 @@ int runRender(const RenderArguments& arguments) {
     if (arguments.json) {
         fmt::print("{}", dump(renderJson(*render, output, faulty.size())));
     } else {
-        fmt::print("{}: {} x {} pixels, {} spp, {}\n", output.string(), color.width(), color.height(), render->samplesPerPixel,
-                   analysis::formatDuration(render->seconds));
+        fmt::print("{}: {} x {} pixels, {} spp, {}\n", output.string(), color.width(), color.height(),
+                   render->samplesPerPixel, analysis::formatDuration(render->seconds));
     }
     warnAboutFaults(faulty);
     return Exit::ok;
@@ -92,11 +94,15 @@ void addRenderCommand(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "Lets the renderer render its image and writes it to a file here");
     addAddressOption(*command, arguments->address);
-    command->add_option("-o,--output", arguments->output, "image to write: .exr with samples and variance, .pfm, .hdr, .png")
-        ->required()->type_name("OUT.exr");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "image to write: .exr with samples and variance, .pfm, .hdr, .png")
+        ->required()
+        ->type_name("OUT.exr");
     addSettingsOptions(*command, arguments->settings);
     command->add_flag("--json", arguments->json, "for scripts");
-    command->footer("Example:\n  emca render localhost:50013 -o cornell.exr --spp 256 --seed 7\n\nCtrl-C cancels the render.");
+    command->footer(
+        "Example:\n  emca render localhost:50013 -o cornell.exr --spp 256 --seed 7\n\nCtrl-C cancels the render.");
     command->callback([arguments, &run] { run = [arguments] { return runRender(*arguments); }; });
 }
 

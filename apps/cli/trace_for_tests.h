@@ -10,9 +10,9 @@
 
 namespace emca::cli {
 
-/// A trace of pixel (3, 4) with two paths. Path 0 (sample 5): origin, estimate, three vertices (a surface with everything,
-/// a vertex with its depth alone, the environment) and user data, one key of which is repeated. Path 1 (sample 9, part 2)
-/// has indices alone.
+/// A trace of pixel (3, 4) with two paths. Path 0 (sample 5): origin, estimate, three vertices (a surface with
+/// everything, a vertex with its depth alone, the environment) and user data, one key of which is repeated. Path 1
+/// (sample 9, part 2) has indices alone.
 inline client::Trace exampleTrace() {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     using Flags = std::vector<std::uint8_t>;
@@ -42,7 +42,8 @@ inline client::Trace exampleTrace() {
     c.contributions = std::vector<Contribution>{{{0.1f, 0.2f, 0.3f}, 0.25f, 1, LightEnd::connected, {}}};
     c.strings = {"glass", "light sampling"};
 
-    const auto floats = [](const std::string& name, Scope scope, std::vector<Index> owners, const std::vector<float>& values) {
+    const auto floats = [](const std::string& name, Scope scope, std::vector<Index> owners,
+                           const std::vector<float>& values) {
         Column column;
         column.name = name;
         column.scope = scope;

@@ -11,8 +11,8 @@
 namespace emca::analysis {
 namespace {
 
-constexpr std::string_view kNames[kColorMapCount] = {"viridis", "plasma",  "inferno",   "magma",     "turbo",
-                                                     "cividis", "grey",    "red-green", "blue-orange"};
+constexpr std::string_view kNames[kColorMapCount] = {"viridis", "plasma", "inferno",   "magma",      "turbo",
+                                                     "cividis", "grey",   "red-green", "blue-orange"};
 constexpr std::string_view kTables[] = {kViridis, kPlasma, kInferno, kMagma, kTurbo, kCividis};
 
 constexpr std::uint8_t digit(char c) { return static_cast<std::uint8_t>(c <= '9' ? c - '0' : c - 'a' + 10); }
@@ -37,10 +37,14 @@ Color8 diverging(std::size_t i, Color8 negative, Color8 positive) {
 Color8 entry(ColorMapId id, std::size_t i) {
     const auto grey = static_cast<std::uint8_t>(i);
     switch (id) {
-        case ColorMapId::grey: return {grey, grey, grey, 255};
-        case ColorMapId::redGreen: return diverging(i, {255, 40, 40, 255}, {40, 255, 40, 255});
-        case ColorMapId::blueOrange: return diverging(i, {60, 150, 255, 255}, {255, 160, 30, 255});
-        default: return tabulated(kTables[static_cast<std::size_t>(id)], i);
+        case ColorMapId::grey:
+            return {grey, grey, grey, 255};
+        case ColorMapId::redGreen:
+            return diverging(i, {255, 40, 40, 255}, {40, 255, 40, 255});
+        case ColorMapId::blueOrange:
+            return diverging(i, {60, 150, 255, 255}, {255, 160, 30, 255});
+        default:
+            return tabulated(kTables[static_cast<std::size_t>(id)], i);
     }
 }
 
@@ -69,9 +73,7 @@ Color8 ColorMap::map(double t) const {
     return entries_[static_cast<std::size_t>(std::clamp(t * 256, 0.0, 255.0))];
 }
 
-std::string_view name(ColorMapId id) {
-    return kNames[std::min(static_cast<std::size_t>(id), kColorMapCount - 1)];
-}
+std::string_view name(ColorMapId id) { return kNames[std::min(static_cast<std::size_t>(id), kColorMapCount - 1)]; }
 
 std::optional<ColorMapId> colorMapByName(std::string_view name) {
     for (std::size_t i = 0; i < kColorMapCount; ++i)

@@ -108,9 +108,12 @@ TEST(ValueRange, RepairedIsValidForAnyInput) {
             for (const bool log : {false, true}) {
                 const ValueRange range{min, max, log};
                 const ValueRange repaired = range.repaired();
-                EXPECT_TRUE(repaired.isValid()) << min << " " << max << " " << log << " -> " << repaired.min << " " << repaired.max;
+                EXPECT_TRUE(repaired.isValid())
+                    << min << " " << max << " " << log << " -> " << repaired.min << " " << repaired.max;
                 EXPECT_EQ(repaired.log, log);
-                if (range.isValid()) { EXPECT_EQ(repaired, range); }
+                if (range.isValid()) {
+                    EXPECT_EQ(repaired, range);
+                }
             }
     EXPECT_EQ((ValueRange{5, 2, false}.repaired()), (ValueRange{2, 5, false}));
     EXPECT_EQ((ValueRange{0, 10, true}.repaired()), (ValueRange{10 * 1e-6, 10, true}));

@@ -10,8 +10,8 @@ namespace emca::analysis {
 namespace {
 
 /// Finite values around a pixel, without its own.
-void collectNeighbours(const std::vector<float>& values, std::uint32_t width, std::uint32_t height, Pixel pixel, int radius,
-                       std::vector<float>& neighbours) {
+void collectNeighbours(const std::vector<float>& values, std::uint32_t width, std::uint32_t height, Pixel pixel,
+                       int radius, std::vector<float>& neighbours) {
     neighbours.clear();
     const auto w = static_cast<int>(width), h = static_cast<int>(height);
     const auto px = static_cast<int>(pixel.x), py = static_cast<int>(pixel.y);
@@ -67,10 +67,11 @@ std::vector<Firefly> findFireflies(const Image& image, const FireflyOptions& opt
             collectNeighbours(values, image.width(), image.height(), {x, y}, radius, neighbours);
             if (mostReach(neighbours, value / options.ratio)) continue;
             const float middle = median(neighbours);
-            const float ratio = std::isfinite(value) ? value / (std::max(middle, 0.f) + floor)
-                                                     : std::numeric_limits<float>::infinity();
+            const float ratio =
+                std::isfinite(value) ? value / (std::max(middle, 0.f) + floor) : std::numeric_limits<float>::infinity();
             if (ratio < options.ratio) continue;
-            const auto company = std::count_if(neighbours.begin(), neighbours.end(), [=](float v) { return v > 0.25f * value; });
+            const auto company =
+                std::count_if(neighbours.begin(), neighbours.end(), [=](float v) { return v > 0.25f * value; });
             const float most = std::max(options.company * static_cast<float>(neighbours.size()), 1.f);
             if (static_cast<float>(company) <= most) found.push_back({{x, y}, value, middle, ratio});
         }

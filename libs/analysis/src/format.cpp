@@ -40,9 +40,13 @@ struct ValueFormatter {
     std::string operator()(Color v) const { return tuple(v.r, v.g, v.b); }
     std::string operator()(ColorA v) const { return tuple(v.r, v.g, v.b, v.a); }
     template <typename T>
-    std::string operator()(Vec2<T> v) const { return tuple(v.x, v.y); }
+    std::string operator()(Vec2<T> v) const {
+        return tuple(v.x, v.y);
+    }
     template <typename T>
-    std::string operator()(Vec3<T> v) const { return tuple(v.x, v.y, v.z); }
+    std::string operator()(Vec3<T> v) const {
+        return tuple(v.x, v.y, v.z);
+    }
     std::string operator()(const std::vector<float>& entries) const {
         std::string text = "[";
         for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -67,10 +67,12 @@ TEST(FormatFull, ReadsBackAsTheSameBits) {
     for (int i = 0; i < 20000; ++i) {
         const auto f = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
         const float readFloat = std::strtof(formatFull(f).c_str(), nullptr);
-        EXPECT_TRUE(!std::isfinite(f) || std::bit_cast<std::uint32_t>(readFloat) == std::bit_cast<std::uint32_t>(f)) << f;
+        EXPECT_TRUE(!std::isfinite(f) || std::bit_cast<std::uint32_t>(readFloat) == std::bit_cast<std::uint32_t>(f))
+            << f;
         const auto d = std::bit_cast<double>(random());
         const double readDouble = std::strtod(formatFull(d).c_str(), nullptr);
-        EXPECT_TRUE(!std::isfinite(d) || std::bit_cast<std::uint64_t>(readDouble) == std::bit_cast<std::uint64_t>(d)) << d;
+        EXPECT_TRUE(!std::isfinite(d) || std::bit_cast<std::uint64_t>(readDouble) == std::bit_cast<std::uint64_t>(d))
+            << d;
     }
     EXPECT_EQ(formatFull(0.1f), "0.1");
     EXPECT_EQ(formatFull(kNaN), "NaN");

@@ -7,9 +7,12 @@
 namespace emca::analysis {
 namespace {
 
-constexpr std::array<std::string_view, kImageMetricCount> kNames = {
-    "error", "absolute error", "squared error", "relative absolute error", "relative squared error",
-    "symmetric absolute error"};
+constexpr std::array<std::string_view, kImageMetricCount> kNames = {"error",
+                                                                    "absolute error",
+                                                                    "squared error",
+                                                                    "relative absolute error",
+                                                                    "relative squared error",
+                                                                    "symmetric absolute error"};
 
 PixelRect clipped(const Image& image, PixelRect rect) {
     if (rect.empty()) return {0, 0, image.width(), image.height()};
@@ -41,11 +44,16 @@ std::optional<ImageMetric> imageMetricByName(std::string_view name) {
 double apply(ImageMetric metric, double image, double reference) {
     const double d = image - reference;
     switch (metric) {
-        case ImageMetric::error: return d;
-        case ImageMetric::absoluteError: return std::abs(d);
-        case ImageMetric::squaredError: return d * d;
-        case ImageMetric::relativeAbsoluteError: return std::abs(d) / (std::abs(reference) + 0.01);
-        case ImageMetric::relativeSquaredError: return d * d / (reference * reference + 0.01);
+        case ImageMetric::error:
+            return d;
+        case ImageMetric::absoluteError:
+            return std::abs(d);
+        case ImageMetric::squaredError:
+            return d * d;
+        case ImageMetric::relativeAbsoluteError:
+            return std::abs(d) / (std::abs(reference) + 0.01);
+        case ImageMetric::relativeSquaredError:
+            return d * d / (reference * reference + 0.01);
         case ImageMetric::symmetricAbsoluteError:
             return 2 * std::abs(d) / (std::abs(image) + std::abs(reference) + 0.02);
     }
@@ -59,7 +67,8 @@ Result<Image> differenceImage(const Image& image, const Image& reference, ImageM
                          " pixels and its reference " + std::to_string(reference.width()) + " x " +
                          std::to_string(reference.height()) + "; only images of the same size can be compared."};
     const bool grey = image.channelCount() < 3 || reference.channelCount() < 3;
-    const std::vector<std::string> channels = grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+    const std::vector<std::string> channels =
+        grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
     Image difference(image.width(), image.height(), channels);
     const auto at = [metric](float a, float b) {
         if (isSame(a, b)) return 0.f;
@@ -76,7 +85,9 @@ Result<Image> differenceImage(const Image& image, const Image& reference, ImageM
     return difference;
 }
 
-double meanOf(const Image& difference) { return summarize(std::span<const float>(difference.data(), difference.size())).mean; }
+double meanOf(const Image& difference) {
+    return summarize(std::span<const float>(difference.data(), difference.size())).mean;
+}
 
 std::vector<float> regionValues(const Image& image, ChannelChoice channel, PixelRect rect) {
     const PixelRect region = clipped(image, rect);
@@ -105,9 +116,12 @@ std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum) {
         if (result.size() >= maximum) return;
         const std::span<const float> values(image.at(p), channels);
         const auto any = [&](auto test) { return std::any_of(values.begin(), values.end(), test); };
-        if (any([](float v) { return std::isnan(v); })) result.push_back({p, PixelFault::nan});
-        else if (any([](float v) { return std::isinf(v); })) result.push_back({p, PixelFault::infinite});
-        else if (any([](float v) { return v < 0; })) result.push_back({p, PixelFault::negative});
+        if (any([](float v) { return std::isnan(v); }))
+            result.push_back({p, PixelFault::nan});
+        else if (any([](float v) { return std::isinf(v); }))
+            result.push_back({p, PixelFault::infinite});
+        else if (any([](float v) { return v < 0; }))
+            result.push_back({p, PixelFault::negative});
     });
     return result;
 }

@@ -9,8 +9,9 @@ namespace emca::analysis {
 
 Result<OutlierReport> detectOutliers(std::span<const double> values, const OutlierOptions& options) {
     if (!(options.deviations > 0) || !std::isfinite(options.deviations))
-        return Error{ErrorCode::invalidArgument, "The number of standard deviations beyond which a path is an outlier is " +
-                                                     formatNumber(options.deviations) + "; it must be positive."};
+        return Error{ErrorCode::invalidArgument,
+                     "The number of standard deviations beyond which a path is an outlier is " +
+                         formatNumber(options.deviations) + "; it must be positive."};
     const Summary summary = summarize(values);
     OutlierReport report;
     report.considered = summary.finite;

@@ -28,13 +28,20 @@ SegmentKind kindOf(const PathSet& paths, const Segment& segment, std::span<const
 
 std::string_view label(PathQuantity quantity) {
     switch (quantity) {
-        case PathQuantity::sample: return "sample index";
-        case PathQuantity::luminance: return "luminance";
-        case PathQuantity::red: return "red";
-        case PathQuantity::green: return "green";
-        case PathQuantity::blue: return "blue";
-        case PathQuantity::depth: return "path depth";
-        case PathQuantity::vertexCount: return "vertices";
+        case PathQuantity::sample:
+            return "sample index";
+        case PathQuantity::luminance:
+            return "luminance";
+        case PathQuantity::red:
+            return "red";
+        case PathQuantity::green:
+            return "green";
+        case PathQuantity::blue:
+            return "blue";
+        case PathQuantity::depth:
+            return "path depth";
+        case PathQuantity::vertexCount:
+            return "vertices";
     }
     return "unknown";
 }
@@ -44,25 +51,35 @@ std::string_view unit(PathQuantity quantity) {
         case PathQuantity::luminance:
         case PathQuantity::red:
         case PathQuantity::green:
-        case PathQuantity::blue: return "W/(sr m²)";
-        default: return "";
+        case PathQuantity::blue:
+            return "W/(sr m²)";
+        default:
+            return "";
     }
 }
 
 std::optional<double> pathValue(const PathSet& paths, Index path, PathQuantity quantity) {
     switch (quantity) {
-        case PathQuantity::sample: return static_cast<double>(paths.sample(path));
-        case PathQuantity::depth: return static_cast<double>(paths.depth(path));
-        case PathQuantity::vertexCount: return static_cast<double>(paths.vertices(path).size());
-        default: break;
+        case PathQuantity::sample:
+            return static_cast<double>(paths.sample(path));
+        case PathQuantity::depth:
+            return static_cast<double>(paths.depth(path));
+        case PathQuantity::vertexCount:
+            return static_cast<double>(paths.vertices(path).size());
+        default:
+            break;
     }
     const std::optional<Color> estimate = paths.estimate(path);
     if (!estimate) return std::nullopt;
     switch (quantity) {
-        case PathQuantity::red: return static_cast<double>(estimate->r);
-        case PathQuantity::green: return static_cast<double>(estimate->g);
-        case PathQuantity::blue: return static_cast<double>(estimate->b);
-        default: return static_cast<double>(luminance(*estimate));
+        case PathQuantity::red:
+            return static_cast<double>(estimate->r);
+        case PathQuantity::green:
+            return static_cast<double>(estimate->g);
+        case PathQuantity::blue:
+            return static_cast<double>(estimate->b);
+        default:
+            return static_cast<double>(luminance(*estimate));
     }
 }
 

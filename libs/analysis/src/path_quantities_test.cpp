@@ -16,7 +16,9 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 using Values = std::vector<double>;
 using Indices = std::vector<Index>;
 
-TestVertex at(std::int32_t depth, Vec3f position, std::uint8_t flags = 0) { return {depth, position, flags, {}, Event::none, {}}; }
+TestVertex at(std::int32_t depth, Vec3f position, std::uint8_t flags = 0) {
+    return {depth, position, flags, {}, Event::none, {}};
+}
 
 TEST(PathSeries, HasOnlyPathsWithAValue) {
     const PathSet set = makePathSet({{5, {}, Color(1, 2, 3), {at(1, {}), at(4, {1, 0, 0})}},
@@ -37,7 +39,8 @@ TEST(PathSeries, HasOnlyPathsWithAValue) {
 TEST(EmitterVertex, RecordedEmissionDecides) {
     std::vector<Mesh> meshes(1);
     meshes[0].emission = Color(5);
-    TestVertex lit = at(1, {}), dark = at(2, {}), event = at(3, {}), sky = at(4, {}, VertexFlag::environment), plain = at(5, {});
+    TestVertex lit = at(1, {}), dark = at(2, {}), event = at(3, {}), sky = at(4, {}, VertexFlag::environment),
+               plain = at(5, {});
     lit.emission = Color(1, 0, 0);
     dark.emission = Color(0.f);
     dark.event = Event::emission;
@@ -53,8 +56,11 @@ TEST(EmitterVertex, RecordedEmissionDecides) {
 TEST(Segments, FollowTheWalkFromItsOrigin) {
     TestVertex lamp = at(3, {3, 0, 0});
     lamp.emission = Color(1);
-    const PathSet set = makePathSet({{0, Vec3f{0, 0, 0}, {}, {at(1, {1, 0, 0}), at(2, {2, 0, 0}), lamp,
-                                                             at(4, {9, 0, 0}, VertexFlag::environment)}}});
+    const PathSet set =
+        makePathSet({{0,
+                      Vec3f{0, 0, 0},
+                      {},
+                      {at(1, {1, 0, 0}), at(2, {2, 0, 0}), lamp, at(4, {9, 0, 0}, VertexFlag::environment)}}});
     const std::vector<Segment> s = pathSegments(set, 0);
     ASSERT_EQ(s.size(), 4u);
     EXPECT_EQ(s[0].from, kNoIndex);
@@ -73,8 +79,11 @@ TEST(Segments, FollowTheWalkFromItsOrigin) {
 
 TEST(Segments, MissingAndBrokenPositionsAreBridged) {
     TestVertex without{2, {}, 0, {}, Event::none, {}};
-    const PathSet set = makePathSet({{0, Vec3f{0, 0, 0}, {}, {at(1, {1, 0, 0}), without, at(3, {kNaN, 0, 0}), at(4, {4, 0, 0}),
-                                                             at(5, {4, 0, 0})}}});
+    const PathSet set =
+        makePathSet({{0,
+                      Vec3f{0, 0, 0},
+                      {},
+                      {at(1, {1, 0, 0}), without, at(3, {kNaN, 0, 0}), at(4, {4, 0, 0}), at(5, {4, 0, 0})}}});
     const std::vector<Segment> s = pathSegments(set, 0);
     ASSERT_EQ(s.size(), 2u);  // the last has no length
     EXPECT_EQ(s[1].from, 0u);
@@ -94,8 +103,11 @@ TEST(Segments, WithoutOriginTheFirstVertexBegins) {
 TEST(Segments, LightSubpathStandsAlone) {
     TestVertex lamp = at(0, {5, 5, 5}, VertexFlag::light);
     lamp.emission = Color(1);
-    const PathSet set = makePathSet({{0, Vec3f{0, 0, 0}, {}, {at(1, {1, 0, 0}), lamp, at(1, {5, 0, 5}, VertexFlag::light),
-                                                             at(2, {3, 0, 5}, VertexFlag::light)}}});
+    const PathSet set = makePathSet(
+        {{0,
+          Vec3f{0, 0, 0},
+          {},
+          {at(1, {1, 0, 0}), lamp, at(1, {5, 0, 5}, VertexFlag::light), at(2, {3, 0, 5}, VertexFlag::light)}}});
     const std::vector<Segment> s = pathSegments(set, 0);
     ASSERT_EQ(s.size(), 3u);
     EXPECT_EQ(s[1].subpath, Subpath::light);

@@ -14,7 +14,7 @@ namespace emca::analysis::testing_support {
 struct TestVertex {
     std::int32_t depth = 1;
     std::optional<Vec3f> position;
-    std::uint8_t flags = 0;                 ///< besides hasPosition, hasEmission, hasEvent
+    std::uint8_t flags = 0;  ///< besides hasPosition, hasEmission, hasEvent
     std::optional<Color> emission;
     Event event = Event::none;
     std::vector<NextEvent> nextEvents;

@@ -43,9 +43,12 @@ RobustRange classified(std::span<const double> values, const ValueRange& range) 
     result.range = range;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto index = static_cast<std::uint32_t>(i);
-        if (std::isnan(values[i])) result.nan.push_back(index);
-        else if (values[i] < range.min) result.below.push_back(index);
-        else if (values[i] > range.max) result.above.push_back(index);
+        if (std::isnan(values[i]))
+            result.nan.push_back(index);
+        else if (values[i] < range.min)
+            result.below.push_back(index);
+        else if (values[i] > range.max)
+            result.above.push_back(index);
     }
     return result;
 }
@@ -61,7 +64,8 @@ RobustRange robustRange(std::span<const double> values, const RobustRangeOptions
     if (spread == 0) {
         // Most values are one value (the black paths of a pixel): the spread of those that differ says what is far.
         std::vector<double> other;
-        std::copy_if(sorted.begin(), sorted.end(), std::back_inserter(other), [&](double v) { return v != lowerQuartile; });
+        std::copy_if(sorted.begin(), sorted.end(), std::back_inserter(other),
+                     [&](double v) { return v != lowerQuartile; });
         for (double& v : other) v = std::abs(v - lowerQuartile);
         std::sort(other.begin(), other.end());
         spread = quantile(other, 0.5) / 2;

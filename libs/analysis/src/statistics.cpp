@@ -84,7 +84,9 @@ double Histogram::lower(std::size_t bin) const {
     return range.value(static_cast<double>(bin) / static_cast<double>(counts.size()));
 }
 
-std::uint64_t Histogram::largest() const { return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end()); }
+std::uint64_t Histogram::largest() const {
+    return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+}
 
 Histogram histogram(std::span<const double> values, const ValueRange& range, std::size_t bins) {
     return histogramAny(values, range, bins);
@@ -115,8 +117,8 @@ std::size_t suggestedBins(std::span<const double> values, const ValueRange& rang
     return static_cast<std::size_t>(std::clamp(std::ceil(bins), 1.0, static_cast<double>(maximum)));
 }
 
-DensityGrid densityGrid(std::span<const double> xs, std::span<const double> ys, const ValueRange& x, const ValueRange& y,
-                        std::uint32_t width, std::uint32_t height) {
+DensityGrid densityGrid(std::span<const double> xs, std::span<const double> ys, const ValueRange& x,
+                        const ValueRange& y, std::uint32_t width, std::uint32_t height) {
     assert(xs.size() == ys.size());
     DensityGrid grid{x.repaired(), y.repaired(), std::max(width, 1u), std::max(height, 1u), {}, 0, 0};
     grid.counts.assign(std::size_t(grid.width) * grid.height, 0);

@@ -150,8 +150,11 @@ TEST(RobustRange, ListsAreExactlyTheValuesOutside) {
         Values values(random() % 40);
         for (double& v : values) {
             const auto kind = random() % 12;
-            v = kind == 0 ? kNaN : kind == 1 ? kInf : kind == 2 ? -kInf : kind == 3 ? 0
-                : std::cauchy_distribution<double>(0, 1)(random);
+            v = kind == 0   ? kNaN
+                : kind == 1 ? kInf
+                : kind == 2 ? -kInf
+                : kind == 3 ? 0
+                            : std::cauchy_distribution<double>(0, 1)(random);
         }
         for (const bool log : {false, true})
             for (const RobustRange& r : {robustRange(values, {.log = log}), fullRange(values, {.log = log})}) {

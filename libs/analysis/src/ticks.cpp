@@ -39,7 +39,9 @@ std::string linearLabel(double value, const Step& step, double largest) {
 
 std::vector<Tick> linearTicks(const ValueRange& range, int majorCount, int smallestExponent) {
     const double length = range.max - range.min;
-    Step step{1, std::max(static_cast<int>(std::floor(std::log10(length / majorCount))) - 1, smallestExponent)};
+    // A length so small that its share is 0 has no logarithm.
+    const double magnitude = std::max(std::log10(length / majorCount), -330.0);
+    Step step{1, std::max(static_cast<int>(std::floor(magnitude)) - 1, smallestExponent)};
     // Ranges far from 0 and nearly empty: steps below the resolution of doubles would repeat values.
     const double resolution = 4 * std::max(std::abs(range.min), std::abs(range.max)) * 2.3e-16;
     // A billionth of a step of slack: ends that are round numbers get their tick in spite of rounding.
@@ -72,7 +74,8 @@ struct Decades {
     bool scientific = false;
     explicit Decades(const ValueRange& range)
         : first(static_cast<int>(std::ceil(std::log10(range.min) - 1e-9))),
-          last(static_cast<int>(std::floor(std::log10(range.max) + 1e-9))), scientific(first < -3 || last > 4) {}
+          last(static_cast<int>(std::floor(std::log10(range.max) + 1e-9))),
+          scientific(first < -3 || last > 4) {}
     int count() const { return last - first + 1; }
 };
 

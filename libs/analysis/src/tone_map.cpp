@@ -10,20 +10,24 @@
 namespace emca::analysis {
 namespace {
 
-constexpr int kMantissaBits = 9;                 // fine enough that a cell holds at most one step of the 8-bit curve
+constexpr int kMantissaBits = 9;  // fine enough that a cell holds at most one step of the 8-bit curve
 constexpr int kShift = 23 - kMantissaBits;
-constexpr int kSmallestExponent = -73;           // below 2^-73 every curve up to gamma 8 rounds to 0
+constexpr int kSmallestExponent = -73;  // below 2^-73 every curve up to gamma 8 rounds to 0
 constexpr std::uint32_t kFirstCell = static_cast<std::uint32_t>(127 + kSmallestExponent) << kMantissaBits;
 // Up to infinity, so that bright pixels need no branch, which noise would make unpredictable.
-constexpr std::uint32_t kCells = (std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> kShift) - kFirstCell + 1;
+constexpr std::uint32_t kCells =
+    (std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> kShift) - kFirstCell + 1;
 
 double encodeSrgbExact(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
 
 double encodeExact(double x, const ToneMap& settings) {
     switch (settings.transfer) {
-        case Transfer::srgb: return encodeSrgbExact(x);
-        case Transfer::gamma: return std::pow(x, 1.0 / static_cast<double>(settings.gamma));
-        case Transfer::linear: break;
+        case Transfer::srgb:
+            return encodeSrgbExact(x);
+        case Transfer::gamma:
+            return std::pow(x, 1.0 / static_cast<double>(settings.gamma));
+        case Transfer::linear:
+            break;
     }
     return x;
 }
@@ -57,8 +61,8 @@ float decodeSrgb(float encoded) {
     return static_cast<float>(sign * (x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4)));
 }
 
-/// For each cell of float bits the 8-bit level at its start; `next[level]` is the smallest float that rounds to a higher
-/// level, so that the result is exact.
+/// For each cell of float bits the 8-bit level at its start; `next[level]` is the smallest float that rounds to a
+/// higher level, so that the result is exact.
 struct ToneMapper::Table {
     std::array<std::uint8_t, kCells> level{};
     std::array<float, 256> next{};
@@ -87,12 +91,14 @@ struct ToneMapper::Table {
 };
 
 ToneMapper::ToneMapper(const ToneMap& settings)
-    : settings_(sanitized(settings)), scale_(std::exp2(settings_.exposure)),
+    : settings_(sanitized(settings)),
+      scale_(std::exp2(settings_.exposure)),
       table_(std::make_shared<const Table>(settings_)) {}
 
 std::uint8_t ToneMapper::encode(float x) const {
     const std::uint32_t cell = (std::bit_cast<std::uint32_t>(x) >> kShift) - kFirstCell;
-    if (cell >= kCells) return 0;  // zero and tiny values wrap to large numbers; negative ones and NaN are beyond infinity
+    if (cell >= kCells)
+        return 0;  // zero and tiny values wrap to large numbers; negative ones and NaN are beyond infinity
     const std::uint8_t level = table_->level[cell];
     return static_cast<std::uint8_t>(level + (x >= table_->next[level]));
 }
@@ -137,7 +143,8 @@ void ToneMapper::convert(const Image& image, std::span<std::uint8_t> rgba, std::
         std::uint8_t* out = rgba.data() + std::size_t(4) * y * image.width();
         for (std::uint32_t x = 0; x < image.width(); ++x, in += channels, out += 4) {
             const float rgb[3] = {in[0], in[second], in[third]};
-            const bool plain = rgb[0] >= 0 && rgb[0] <= limit && rgb[1] >= 0 && rgb[1] <= limit && rgb[2] >= 0 && rgb[2] <= limit;
+            const bool plain =
+                rgb[0] >= 0 && rgb[0] <= limit && rgb[1] >= 0 && rgb[1] <= limit && rgb[2] >= 0 && rgb[2] <= limit;
             if (!plain && mark(rgb, x, y, out)) continue;
             out[0] = encode(rgb[0] * scale_);
             out[1] = encode(rgb[1] * scale_);
@@ -193,8 +200,10 @@ void falseColor(const Image& image, ChannelChoice choice, const ColorMap& map, c
                 continue;
             }
             double position = 0;
-            if (!valid.log) position = static_cast<double>(value) * scale + offset;
-            else if (value > 0) position = static_cast<double>(std::log(value)) * scale + offset;
+            if (!valid.log)
+                position = static_cast<double>(value) * scale + offset;
+            else if (value > 0)
+                position = static_cast<double>(std::log(value)) * scale + offset;
             store(entries[static_cast<std::size_t>(std::clamp(position, 0.0, 255.0))], out);
         }
 }

@@ -80,7 +80,9 @@ TEST(ToneMapper, MarksWhatNoScreenCanShow) {
     image.setColor({3, 0}, {0.5f, 0, 0});
     image.setColor({4, 0}, {-0.f, 0, 1});
     std::vector<std::uint8_t> rgba(20);
-    const auto at = [&](std::size_t i) { return Color8{rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]}; };
+    const auto at = [&](std::size_t i) {
+        return Color8{rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]};
+    };
     ToneMapper().convert(image, rgba);
     EXPECT_EQ(at(0), kNaNColor);
     EXPECT_EQ(at(1), kInfinityColor);
@@ -145,7 +147,8 @@ TEST(ToneMapper, GreyAndChannelImages) {
 TEST(FalseColor, EqualsTheMapOfEachPixel) {
     std::mt19937 random(5);
     Image image(64, 8, {"Y"});
-    for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = std::exp2(static_cast<float>(random()) * 0x1p-27f - 16);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.data()[i] = std::exp2(static_cast<float>(random()) * 0x1p-27f - 16);
     image.data()[0] = kNaN;
     image.data()[1] = kInf;
     image.data()[2] = 0;
@@ -154,7 +157,9 @@ TEST(FalseColor, EqualsTheMapOfEachPixel) {
     std::vector<std::uint8_t> rgba(4 * image.size());
     for (const ValueRange range : {ValueRange{0, 1000, false}, ValueRange{1e-3, 1000, true}}) {
         falseColor(image, {}, map, range, rgba);
-        const auto at = [&](std::size_t i) { return Color8{rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]}; };
+        const auto at = [&](std::size_t i) {
+            return Color8{rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]};
+        };
         EXPECT_EQ(at(0), kNaNColor);
         EXPECT_EQ(at(1), kInfinityColor);
         EXPECT_EQ(at(2), map.entries()[0]);

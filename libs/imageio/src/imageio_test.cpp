@@ -30,7 +30,9 @@ class ImageFiles : public testing::Test {
         fs::remove_all(folder_, ignored);
     }
     fs::path file(const std::string& name) const { return folder_ / name; }
-    std::size_t fileCount() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
+    std::size_t fileCount() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {}));
+    }
     static std::string bytesOf(const fs::path& path) {
         std::ifstream in(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), {}};
@@ -44,10 +46,11 @@ class ImageFiles : public testing::Test {
 Image randomBits(std::uint32_t width, std::uint32_t height, std::vector<std::string> channels = {"R", "G", "B"}) {
     std::mt19937 random(1);
     Image image(width, height, std::move(channels));
-    for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-    const float special[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                             -std::numeric_limits<float>::infinity(), -0.f, std::numeric_limits<float>::denorm_min(),
-                             std::bit_cast<float>(0x7fc12345u)};
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.data()[i] = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    const float special[] = {std::numeric_limits<float>::quiet_NaN(),  std::numeric_limits<float>::infinity(),
+                             -std::numeric_limits<float>::infinity(),  -0.f,
+                             std::numeric_limits<float>::denorm_min(), std::bit_cast<float>(0x7fc12345u)};
     std::copy(std::begin(special), std::end(special), image.data());
     return image;
 }
@@ -128,7 +131,8 @@ TEST_F(ImageFiles, EightBitsAreSrgb) {
     Image image(256, 1);
     for (std::uint32_t x = 0; x < 256; ++x) {
         const double v = x / 255.0;
-        image.setColor({x, 0}, Color(static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4))));
+        image.setColor({x, 0},
+                       Color(static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4))));
     }
     ASSERT_TRUE(write(file("ramp.png"), image).ok());
     const Result<Image> back = read(file("ramp.png"));
@@ -177,7 +181,8 @@ TEST_F(ImageFiles, RenderWithSamplesAndVariance) {
 /// Writes a file as other programs do.
 void writeForeign(const fs::path& path, OIIO::ImageSpec spec, const std::vector<float>& values) {
     const auto out = OIIO::ImageOutput::create(path.string());
-    ASSERT_TRUE(out && out->open(path.string(), spec) && out->write_image(OIIO::TypeDesc::FLOAT, values.data()) && out->close());
+    ASSERT_TRUE(out && out->open(path.string(), spec) && out->write_image(OIIO::TypeDesc::FLOAT, values.data()) &&
+                out->close());
 }
 
 TEST_F(ImageFiles, HalfFloatsAreLinearAndExact) {
@@ -210,11 +215,13 @@ TEST_F(ImageFiles, CropsAreShownInTheirFrame) {
 }
 
 TEST_F(ImageFiles, AlphaOfEightBitsIsNotDecoded) {
-    writeForeign(file("alpha.png"), [] {
-        OIIO::ImageSpec spec(1, 1, 4, OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:UnassociatedAlpha", 1);
-        return spec;
-    }(), {1, 0, 0, 51 / 255.f});
+    writeForeign(file("alpha.png"),
+                 [] {
+                     OIIO::ImageSpec spec(1, 1, 4, OIIO::TypeDesc::UINT8);
+                     spec.attribute("oiio:UnassociatedAlpha", 1);
+                     return spec;
+                 }(),
+                 {1, 0, 0, 51 / 255.f});
     const Result<Image> back = read(file("alpha.png"));
     ASSERT_TRUE(back.ok());
     EXPECT_EQ(back->color({0, 0}), Color(1, 0, 0));  // not multiplied with alpha
@@ -234,7 +241,8 @@ TEST_F(ImageFiles, EveryTruncationIsRefusedOrWhole) {
         ASSERT_TRUE(whole.ok());
         const std::string bytes = bytesOf(file(name));
         const fs::path cut = file(std::string("cut") + fs::path(name).extension().string());
-        for (std::size_t length = 0; length < bytes.size(); length += length < 32 || length + 32 > bytes.size() ? 1 : 41) {
+        for (std::size_t length = 0; length < bytes.size();
+             length += length < 32 || length + 32 > bytes.size() ? 1 : 41) {
             writeBytes(cut, bytes.substr(0, length));
             const Result<Image> part = read(cut);
             if (part.ok()) {
@@ -294,13 +302,18 @@ TEST_F(ImageFiles, UnwritablePlaces) {
     EXPECT_EQ(fileCount(), 0u);
     fs::create_directory(file("folder.exr"));
     EXPECT_EQ(write(file("folder.exr"), image).error().code, ErrorCode::fileUnwritable);
-    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+    fs::permissions(folder_,
+                    fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
     // The superuser may write everywhere: be nobody meanwhile.
     const uid_t user = ::geteuid();
     constexpr uid_t kNobody = 65534;
-    if (user == 0) { ASSERT_EQ(::seteuid(kNobody), 0); }
+    if (user == 0) {
+        ASSERT_EQ(::seteuid(kNobody), 0);
+    }
     const Result<void> result = write(file("a.exr"), image);
-    if (user == 0) { ASSERT_EQ(::seteuid(user), 0); }
+    if (user == 0) {
+        ASSERT_EQ(::seteuid(user), 0);
+    }
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::fileUnwritable);
 }

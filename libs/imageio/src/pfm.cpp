@@ -2,8 +2,8 @@
 
 #include <bit>
 #include <cerrno>
-#include <cstring>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include "size_check.h"
@@ -22,7 +22,8 @@ bool parse(std::istream& in, Header& header) {
     if (!(in >> magic >> header.width >> header.height >> header.scale)) return false;
     header.channels = magic == "PF" ? 3 : magic == "Pf" ? 1 : 0;
     const int blank = in.get();
-    return header.channels > 0 && std::isfinite(header.scale) && header.scale != 0 && (blank == '\n' || blank == ' ' || blank == '\r');
+    return header.channels > 0 && std::isfinite(header.scale) && header.scale != 0 &&
+           (blank == '\n' || blank == ' ' || blank == '\r');
 }
 
 void swapBytes(float& value) {
@@ -36,7 +37,8 @@ bool isPfm(const std::filesystem::path& file) {
     char magic[3] = {};
     std::ifstream in(file, std::ios::binary);
     in.read(magic, sizeof magic);
-    return in && magic[0] == 'P' && (magic[1] == 'F' || magic[1] == 'f') && (magic[2] == '\n' || magic[2] == ' ' || magic[2] == '\r');
+    return in && magic[0] == 'P' && (magic[1] == 'F' || magic[1] == 'f') &&
+           (magic[2] == '\n' || magic[2] == ' ' || magic[2] == '\r');
 }
 
 Result<Image> readPfm(const std::filesystem::path& file, std::uintmax_t fileBytes) {
@@ -68,12 +70,14 @@ Result<void> writePfm(const std::filesystem::path& file, const Image& image) {
     const std::size_t kept = colored ? 3 : 1;
     std::vector<float> row(kept * image.width());
     for (std::uint32_t y = image.height(); y-- > 0;) {
-        for (std::uint32_t x = 0; x < image.width(); ++x) std::memcpy(&row[kept * x], image.at({x, y}), kept * sizeof(float));
+        for (std::uint32_t x = 0; x < image.width(); ++x)
+            std::memcpy(&row[kept * x], image.at({x, y}), kept * sizeof(float));
         out.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(float)));
     }
     out.close();
     if (!out)
-        return Error{ErrorCode::fileUnwritable, "The image " + file.string() + " cannot be written: " + std::strerror(errno) + "."};
+        return Error{ErrorCode::fileUnwritable,
+                     "The image " + file.string() + " cannot be written: " + std::strerror(errno) + "."};
     return {};
 }
 

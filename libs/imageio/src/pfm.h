@@ -8,9 +8,9 @@
 
 namespace emca::imageio {
 
-// Portable float map: "PF" and three channels or "Pf" and one, size, scale (negative: little endian), then rows from the
-// bottom. Source: Debevec's description of the format. Our own, because the library's scales its values, which changes
-// the bits of NaN.
+// Portable float map: "PF" and three channels or "Pf" and one, size, scale (negative: little endian), then rows from
+// the bottom. Source: Debevec's description of the format. Our own, because the library's scales its values, which
+// changes the bits of NaN.
 
 /// Whether a file begins as one.
 bool isPfm(const std::filesystem::path& file);

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "emca/imageio/imageio.h"
-#include "size_check.h"
 #include "pfm.h"
+#include "size_check.h"
 #include "srgb.h"
 
 namespace emca::imageio {
@@ -22,11 +22,12 @@ std::string clause(std::string message) {
 
 /// The window that people see. Files whose display window is nonsense have only their data.
 struct Window {
-    int x = 0, y = 0;                ///< of the display window
+    int x = 0, y = 0;  ///< of the display window
     std::int64_t width = 0, height = 0;
 };
 Window displayWindow(const OIIO::ImageSpec& spec) {
-    if (spec.full_width > 0 && spec.full_height > 0) return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+    if (spec.full_width > 0 && spec.full_height > 0)
+        return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
     return {spec.x, spec.y, spec.width, spec.height};
 }
 
@@ -63,7 +64,8 @@ Image assemble(const OIIO::ImageSpec& spec, const std::vector<float>& values) {
             const std::int64_t column = std::int64_t(x) + spec.x - window.x, row = std::int64_t(y) + spec.y - window.y;
             if (column < 0 || row < 0 || column >= window.width || row >= window.height) continue;
             const float* in = &values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(spec.width) +
-                                       static_cast<std::size_t>(x)) * channels];
+                                       static_cast<std::size_t>(x)) *
+                                      channels];
             float* out = image.at({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)});
             for (std::size_t c = 0; c < channels; ++c) {
                 const float v = in[order[c]];
@@ -103,20 +105,21 @@ Result<Image> readUnguarded(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<void> checkSize(const std::filesystem::path& file, std::int64_t width, std::int64_t height, std::int64_t channels,
-                       std::uintmax_t fileBytes) {
+Result<void> checkSize(const std::filesystem::path& file, std::int64_t width, std::int64_t height,
+                       std::int64_t channels, std::uintmax_t fileBytes) {
     if (width <= 0 || height <= 0 || channels <= 0) return unreadable(file, "its header promises no pixels");
     const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
     if (width > kMaximumSide || height > kMaximumSide ||
         static_cast<std::uint64_t>(channels) > kMaximumValues / static_cast<std::uint64_t>(width * height))
-        return Error{ErrorCode::tooLarge, "The image " + file.string() + " has " + size + " of " + std::to_string(channels) +
-                                              " channels; at most " + std::to_string(kMaximumSide) +
-                                              " a side and 2^31 values are read."};
+        return Error{ErrorCode::tooLarge, "The image " + file.string() + " has " + size + " of " +
+                                              std::to_string(channels) + " channels; at most " +
+                                              std::to_string(kMaximumSide) + " a side and 2^31 values are read."};
     // Beyond what any of the formats can compress, a header is wrong; believing it would cost memory for nothing.
     constexpr std::uint64_t kSmall = 64u << 20, kCompression = 4096;
     const std::uint64_t bytes = static_cast<std::uint64_t>(width * height * channels) * sizeof(float);
     if (bytes > kSmall && bytes / kCompression > fileBytes)
-        return unreadable(file, "its header promises " + size + ", but the file has only " + std::to_string(fileBytes) + " bytes");
+        return unreadable(
+            file, "its header promises " + size + ", but the file has only " + std::to_string(fileBytes) + " bytes");
     return {};
 }
 

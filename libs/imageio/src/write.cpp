@@ -43,11 +43,13 @@ OIIO::ImageSpec specOf(const Image& image, OIIO::TypeDesc type) {
     return spec;
 }
 
-Result<void> writeWithOiio(const fs::path& file, const std::string& format, const OIIO::ImageSpec& spec, const void* pixels) {
+Result<void> writeWithOiio(const fs::path& file, const std::string& format, const OIIO::ImageSpec& spec,
+                           const void* pixels) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     const std::string createError = OIIO::geterror();
     if (!output)
-        return Error{ErrorCode::notSupported, "This OpenImageIO was built without ." + format + ": " + clause(createError) + "."};
+        return Error{ErrorCode::notSupported,
+                     "This OpenImageIO was built without ." + format + ": " + clause(createError) + "."};
     if (!output->open(file.string(), spec)) return unwritable(file, clause(output->geterror()));
     const bool written = output->write_image(spec.format, pixels);
     const std::string writeError = output->geterror();
@@ -60,7 +62,8 @@ Result<void> writeExr(const fs::path& file, const Image& image) {
     const std::set<std::string> names(image.channels().begin(), image.channels().end());
     if (names.size() != image.channelCount() || names.count("") > 0)
         return Error{ErrorCode::invalidArgument,
-                     "The image for " + file.string() + " has channels without name or with the same one; EXR needs a name for each."};
+                     "The image for " + file.string() +
+                         " has channels without name or with the same one; EXR needs a name for each."};
     OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
@@ -103,13 +106,13 @@ Writer writerFor(const fs::path& file) {
 fs::path temporaryBeside(const fs::path& file) {
     static const unsigned program = std::random_device()();
     static std::atomic<unsigned> counter{0};
-    return file.parent_path() / ("." + file.stem().string() + "." + std::to_string(program) + "-" + std::to_string(counter++) +
-                                 ".tmp" + file.extension().string());
+    return file.parent_path() / ("." + file.stem().string() + "." + std::to_string(program) + "-" +
+                                 std::to_string(counter++) + ".tmp" + file.extension().string());
 }
 
 Error unknownExtension(const fs::path& file) {
-    return {ErrorCode::notSupported, "The image " + file.string() + " has the extension \"" + file.extension().string() +
-                                         "\"; .exr, .pfm, .hdr and .png can be written."};
+    return {ErrorCode::notSupported, "The image " + file.string() + " has the extension \"" +
+                                         file.extension().string() + "\"; .exr, .pfm, .hdr and .png can be written."};
 }
 
 /// The file that is replaced: through a link to what it means; the link stays.
@@ -121,7 +124,8 @@ fs::path targetOf(const fs::path& asked) {
 Result<void> checkPlace(const fs::path& asked, const fs::path& target) {
     std::error_code code;
     const fs::file_status old = fs::status(target, code);
-    if (fs::exists(old) && !fs::is_regular_file(old)) return unwritable(asked, "there is something of that name that is not a file");
+    if (fs::exists(old) && !fs::is_regular_file(old))
+        return unwritable(asked, "there is something of that name that is not a file");
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, code)) return unwritable(asked, "there is no folder " + folder.string());
     // Trying is the only answer that counts permissions, read-only file systems and full disks alike.
@@ -183,8 +187,8 @@ Result<void> write(const fs::path& file, const RenderedImage& render) {
     for (const Image* part : parts) {
         if (part->empty()) continue;
         if (part->width() != all.width() || part->height() != all.height())
-            return Error{ErrorCode::invalidArgument, "The render for " + file.string() +
-                                                         " has colours, samples and variance of different sizes."};
+            return Error{ErrorCode::invalidArgument,
+                         "The render for " + file.string() + " has colours, samples and variance of different sizes."};
         const std::size_t channels = part->channelCount(), stride = names.size();
         const std::size_t pixels = std::size_t(all.width()) * all.height();
         for (std::size_t i = 0; i < pixels; ++i)
