@@ -95,7 +95,9 @@ TEST(Theme, StyleSheetNamesNoUnknownColour) {
 TEST(Theme, DigitsHaveEqualWidth) {
     const Theme theme;
     // Where Inter is installed its own tabular digits serve, not those of another font.
-    if (theme.font().family() == "Inter") EXPECT_EQ(theme.numberFont().family(), "Inter Tabular");
+    if (theme.font().family() == "Inter") {
+        EXPECT_EQ(theme.numberFont().family(), "Inter Tabular");
+    }
     const QFontMetricsF metrics(theme.numberFont());
     for (char digit = '0'; digit <= '9'; ++digit)
         EXPECT_DOUBLE_EQ(metrics.horizontalAdvance(QLatin1Char(digit)), metrics.horizontalAdvance(QLatin1Char('0'))) << digit;

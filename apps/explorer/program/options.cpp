@@ -35,7 +35,9 @@ Result<void> setTarget(Options& options, const QString& text) {
 }
 
 Result<void> setValue(Options& options, const QString& name, const QString& value) {
-    if (name == "--pixel") {
+    if (name == "--pixel" && value == "firefly") {
+        options.firefly = true;
+    } else if (name == "--pixel") {
         const auto xy = twoNumbers(value, ",");
         if (!xy) return usageError("--pixel takes a column and a row like 12,34; \"" + value + "\" is none.");
         options.pixel = Pixel{static_cast<std::uint32_t>(xy->first), static_cast<std::uint32_t>(xy->second)};
@@ -94,7 +96,7 @@ QString usage() {
         "Shows the light paths behind the pixels of a renderer.\n\n"
         "  HOST:PORT            connect to a renderer, e.g. 127.0.0.1:50013\n"
         "  IMAGE                open an EXR, PFM, HDR or PNG file\n"
-        "  --pixel X,Y          select a pixel; (0,0) is the top left\n"
+        "  --pixel X,Y          select a pixel; (0,0) is the top left; \"firefly\" finds the most striking one\n"
         "  --spp N              samples per pixel of the first render\n"
         "  --screenshot OUT.png save a picture of the window when everything is drawn, and end\n"
         "  --tour DIR           save pictures of every view around the most striking path, and index.md, and end\n"

@@ -17,6 +17,7 @@ struct Options {
     std::optional<client::Address> address;
     QString image;                       ///< file to open; empty for none
     std::optional<Pixel> pixel;
+    bool firefly = false;                ///< the most striking pixel in place of a given one, and its outlier path
     QString screenshot;                  ///< PNG to write, then end; empty: stay open
     QString tour;                        ///< folder for pictures and index.md, then end; empty: stay open
     QSize size;                          ///< invalid: as it was left

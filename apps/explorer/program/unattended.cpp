@@ -9,17 +9,17 @@
 #include "emca/analysis/format.h"
 #include "image/image_canvas.h"
 #include "image/image_view.h"
+#include "base/path_ids.h"
+#include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
+#include "paths/vertex_table.h"
 #include "plots/path_plot.h"
 #include "program/tour_story.h"
 #include "scene/scene_view.h"
 #include "window/history_view.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
-#include "window/sample_box.h"
-#include "window/selection_steps.h"
 #include "window/toast.h"
-#include "window/vertex_view.h"
 
 namespace emca::explorer {
 namespace {
@@ -49,7 +49,7 @@ Unattended::Unattended(Options options, client::Dataset& dataset, client::Select
 }
 
 void Unattended::start() {
-    if (options_.samplesPerPixel) window_.samples().setValue(static_cast<int>(options_.samplesPerPixel));
+    if (options_.samplesPerPixel) window_.setSamples(options_.samplesPerPixel);
     if (!options_.image.isEmpty()) {
         session_.openImage(options_.image);
         // Before connecting, so that no image is rendered where one is there.
@@ -57,7 +57,9 @@ void Unattended::start() {
     } else if (options_.address) {
         window_.connectTo(*options_.address);
     }
-    if (options_.pixel || !options_.tour.isEmpty()) then([this] { selectPixel(); });
+    const bool firefly = options_.firefly || !options_.tour.isEmpty();
+    if (options_.pixel || firefly) then([this] { selectPixel(); });
+    if (options_.firefly) then([this] { selectSuspect(); });
     if (!options_.tour.isEmpty()) then([this] { tour(); });
     if (!options_.screenshot.isEmpty()) then([this] {
         if (!window_.grab().save(options_.screenshot)) end(3, tr("The picture could not be written to %1; check the folder and its ending.").arg(options_.screenshot));
@@ -120,6 +122,14 @@ void Unattended::save(QWidget* widget, const QString& file, const QString& capti
     else end(3, tr("The picture could not be written to %1; check the folder.").arg(QDir(options_.tour).filePath(file)));
 }
 
+/// The strongest path alone and the vertex that made it so: all views follow.
+void Unattended::selectSuspect() {
+    const auto suspect = findSuspect(dataset_.paths());
+    if (!suspect) return;
+    selection_.setPaths({pathId(dataset_.paths(), suspect->path)});
+    if (suspect->vertex) selection_.setVertex(vertexId(dataset_.paths(), *suspect->vertex));
+}
+
 void Unattended::tour() {
     if (!QDir().mkpath(options_.tour)) {
         end(3, tr("The folder %1 could not be made.").arg(options_.tour));
@@ -131,14 +141,7 @@ void Unattended::tour() {
         return;
     }
     const Pixel pixel = dataset_.current().front()->pixels.front();
-    std::vector<client::PathId> outliers;
-    for (const Index path : suspect->report.outliers) outliers.push_back(idOf(dataset_.paths(), path));
-    const client::PathId worst = idOf(dataset_.paths(), suspect->path);
-    if (std::find(outliers.begin(), outliers.end(), worst) == outliers.end()) outliers.push_back(worst);
-
-    // The strongest path alone, then its vertex: the views follow.
-    selection_.setPaths({worst});
-    if (suspect->vertex) selection_.setVertex(vertexIdOf(dataset_.paths(), *suspect->vertex));
+    selectSuspect();
     window_.showDock("outliers");
     then([this] { save(&window_, "01-window.png", tr("The whole window: image, plots, scene, path tree and the data of the vertex")); });
     then([this, pixel] { window_.views().image->canvas().focusOn(pixel); });
@@ -155,7 +158,7 @@ void Unattended::tour() {
         ++number;
     };
     Views& views = window_.views();
-    for (const Views::Plot& plot : views.plots) show(plot.name, plot.widget, plot.name, tr("%1 of every path of the pixel; the selected one is orange").arg(plot.title));
+    for (const Views::Plot& plot : views.plots) show(plot.name, plot.widget, plot.name, tr("%1 of every path of the pixel; the selected path is orange").arg(plot.title == tr("RGB") ? tr("Red, green and blue") : plot.title));
     show("paths", views.paths, "paths", tr("The path as a tree of values"));
     show("vertex", views.vertex, "intersection", tr("Everything that was recorded at the vertex"));
     show("outliers", views.outliers, "outliers", tr("Paths beyond mean + 3 σ"));

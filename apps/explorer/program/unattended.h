@@ -30,7 +30,7 @@ class Unattended : public QObject {
     void tick();
     void end(int code, const QString& sentence = {});
     void selectPixel();
-    void choosePixel();
+    void selectSuspect();
     void tour();
     void save(QWidget* widget, const QString& file, const QString& caption);
 

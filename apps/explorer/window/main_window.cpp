@@ -13,7 +13,9 @@
 #include "base/state_overlay.h"
 #include "base/theme.h"
 #include "image/image_view.h"
+#include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
+#include "paths/vertex_table.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "window/connect_panel.h"
@@ -22,7 +24,6 @@
 #include "window/sample_box.h"
 #include "window/status_strip.h"
 #include "window/toast.h"
-#include "window/vertex_view.h"
 
 namespace emca::explorer {
 namespace {
@@ -39,7 +40,7 @@ MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, S
       datasetListening_(dataset, [this](std::uint32_t parts) {
           if (parts & (client::DatasetPart::info | client::DatasetPart::images | client::DatasetPart::currentImage)) showStates();
           if (parts & (client::DatasetPart::info | client::DatasetPart::currentTrace)) status_->refresh();
-          if (parts & client::DatasetPart::info && dataset_.info() && !samplesTyped_)
+          if ((parts & client::DatasetPart::info) && dataset_.info() && !samplesChosen_)
               samples_->setValue(static_cast<int>(dataset_.info()->samplesPerPixel));
           updateActions();
       }),
@@ -96,7 +97,7 @@ void MainWindow::addDocks() {
     addDock(tr("Scene"), "scene", views_.scene);
     addDock(tr("Paths"), "paths", views_.paths);
     addDock(tr("Intersection"), "vertex", views_.vertex);
-    if (views_.outliers) addDock(tr("Outliers"), "outliers", views_.outliers);
+    addDock(tr("Outliers"), "outliers", views_.outliers);
     addDock(tr("History"), "history", views_.history);
     addDock(tr("3D options"), "sceneOptions", views_.sceneOptions);
     arrange();
@@ -106,7 +107,7 @@ void MainWindow::addDocks() {
 void MainWindow::arrange() {
     PanelDock* image = dock("image");
     PanelDock* scene = dock("scene");
-    PanelDock* tools = dock("history");
+    PanelDock* tools = dock("outliers");
     for (const auto& [name, made] : docks_) {
         removeDockWidget(made);
         made->setFloating(false);
@@ -121,22 +122,18 @@ void MainWindow::arrange() {
     }
     splitDockWidget(scene, dock("paths"), Qt::Vertical);
     splitDockWidget(dock("paths"), dock("vertex"), Qt::Horizontal);
-    PanelDock* front = tools;
-    if (PanelDock* outliers = dock("outliers")) {
-        tabifyDockWidget(tools, outliers);
-        front = outliers;
-    }
-    tabifyDockWidget(front, dock("sceneOptions"));
+    tabifyDockWidget(tools, dock("history"));
+    tabifyDockWidget(dock("history"), dock("sceneOptions"));
     for (const auto& [name, made] : docks_) made->show();
 
     const int w = width(), h = height() - 120;
-    const int toolsWidth = std::min(290, w / 6), left = w * 2 / 5, right = w - left - toolsWidth;
+    const int toolsWidth = std::min(280, w / 6), left = w * 2 / 5, right = w - left - toolsWidth;
     resizeDocks({image, scene, tools}, {left, right, toolsWidth}, Qt::Horizontal);
     if (!views_.plots.empty()) resizeDocks({image, dock(views_.plots.front().name)}, {h * 56 / 100, h * 44 / 100}, Qt::Vertical);
     resizeDocks({scene, dock("paths")}, {h * 60 / 100, h * 40 / 100}, Qt::Vertical);
-    resizeDocks({dock("paths"), dock("vertex")}, {right * 56 / 100, right * 44 / 100}, Qt::Horizontal);
+    resizeDocks({dock("paths"), dock("vertex")}, {right * 58 / 100, right * 42 / 100}, Qt::Horizontal);
     if (!views_.plots.empty()) dock(views_.plots.front().name)->raise();
-    front->raise();
+    tools->raise();
     updateDockTitles();
 }
 

@@ -2,9 +2,11 @@
 
 #include <QMainWindow>
 #include <QSettings>
+#include <functional>
 #include <map>
 #include <vector>
 
+#include "base/icons.h"
 #include "base/listeners.h"
 #include "base/theme.h"
 #include "session/session_controller.h"
@@ -39,7 +41,8 @@ class MainWindow : public QMainWindow {
     const std::map<QString, PanelDock*>& docks() const { return docks_; }
     Toast& toast() { return *toast_; }
     ConnectPanel& connectPanel() { return *connectPanel_; }
-    SampleBox& samples() { return *samples_; }
+    /// Samples per pixel of the next render; a person's choice outlives the scene's.
+    void setSamples(std::uint32_t samplesPerPixel);
     QAction* action(const QString& name) const;
 
     /// Brings a dock's tab to the front.
@@ -74,6 +77,7 @@ class MainWindow : public QMainWindow {
     void toggleLog();
     void focusSelection();
     void setTheme(ThemeKind kind);
+    void setIcons();
     void openImageDialog();
     void saveImageDialog();
     // main_window_states.cpp
@@ -96,7 +100,8 @@ class MainWindow : public QMainWindow {
     StatusStrip* status_ = nullptr;
     SampleBox* samples_ = nullptr;
     QToolButton* connectButton_ = nullptr;
-    bool arranged_ = false, samplesTyped_ = false;
+    std::vector<std::pair<QAction*, Icon>> icons_;
+    bool arranged_ = false, samplesChosen_ = false;
     SelectionUndo undo_;
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;

@@ -2,6 +2,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QFileDialog>
+#include <QLabel>
 #include <QMenuBar>
 #include <QSignalBlocker>
 #include <QToolBar>
@@ -88,6 +89,9 @@ void MainWindow::addToolBar() {
     connectButton_->setObjectName("connectButton");
     connectButton_->setText(tr("Connect…"));
     connect(connectButton_, &QToolButton::clicked, this, [this] { connectPanel_->openBelow(connectButton_); });
+    connectButton_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    bar->setIconSize(QSize(16, 16));
     bar->addWidget(connectButton_);
     bar->addSeparator();
     bar->addAction(action("render"));
@@ -100,13 +104,41 @@ void MainWindow::addToolBar() {
     bar->addAction(action("openImage"));
     bar->addAction(action("saveImage"));
     bar->addSeparator();
-    for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex", "focus"}) bar->addAction(action(name));
+    const auto stepper = [&](const QString& label, const char* previous, const char* next) {
+        for (const char* name : {previous, next}) {
+            bar->addAction(action(name));
+            auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action(name)));
+            button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+            button->setToolTip(QStringLiteral("%1 (%2)").arg(action(name)->text(), action(name)->shortcut().toString()));
+            if (name == previous) bar->addWidget(new QLabel(label));
+        }
+    };
+    stepper(tr("Path"), "previousPath", "nextPath");
+    stepper(tr("Vertex"), "previousVertex", "nextVertex");
+    bar->addAction(action("focus"));
     auto* space = new QWidget;
     space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
     bar->addWidget(space);
     bar->addAction(action("theme"));
     connect(connectPanel_, &ConnectPanel::connectWanted, this, &MainWindow::connectTo);
-    connect(samples_, qOverload<int>(&QSpinBox::valueChanged), this, [this] { samplesTyped_ = samples_->hasFocus() || samplesTyped_; });
+    connect(samples_, qOverload<int>(&QSpinBox::valueChanged), this, [this] { samplesChosen_ = samples_->hasFocus() || samplesChosen_; });
+    icons_ = {{action("render"), Icon::render}, {action("cancel"), Icon::cancel}, {action("openImage"), Icon::open},
+              {action("saveImage"), Icon::save}, {action("previousPath"), Icon::previous}, {action("nextPath"), Icon::next},
+              {action("previousVertex"), Icon::previous}, {action("nextVertex"), Icon::next}, {action("focus"), Icon::focus}};
+    for (const char* name : {"render", "cancel", "openImage", "saveImage", "focus"}) action(name)->setIconText(action(name)->text().remove(QStringLiteral("…")).section(' ', 0, 0));
+    setIcons();
+    connect(&theme_, &Theme::themeChanged, this, &MainWindow::setIcons);
+}
+
+void MainWindow::setIcons() {
+    for (const auto& [owner, symbol] : icons_) owner->setIcon(icon(symbol, theme_));
+    action("theme")->setIcon(icon(theme_.isDark() ? Icon::sun : Icon::moon, theme_));
+    connectButton_->setIcon(icon(Icon::link, theme_));
+}
+
+void MainWindow::setSamples(std::uint32_t samplesPerPixel) {
+    samplesChosen_ = true;
+    samples_->setValue(static_cast<int>(samplesPerPixel));
 }
 
 void MainWindow::updateActions() {

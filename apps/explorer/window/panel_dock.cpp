@@ -16,6 +16,7 @@ PanelDock::PanelDock(const QString& title, const QString& name, QWidget* content
     setWidget(content);
     label_->setProperty("role", "muted");
     auto* close = new QToolButton;
+    close->setStyleSheet("padding: 0; font-size: 16px;");
     close->setText(QStringLiteral("×"));
     close->setToolTip(tr("Hide; the menu View brings it back"));
     close->setFixedSize(22, 22);

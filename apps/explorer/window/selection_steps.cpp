@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "base/path_ids.h"
+
 namespace emca::explorer {
-
-client::PathId idOf(const PathSet& paths, Index path) { return {paths.pixel(path), paths.sample(path), paths.part(path)}; }
-
-client::VertexId vertexIdOf(const PathSet& paths, Index vertex) {
-    return {idOf(paths, paths.pathOf(vertex)), paths.depthIndex(vertex), paths.subpath(vertex)};
-}
 
 std::optional<Index> currentPath(const client::Dataset& dataset, const client::Selection& selection) {
     const auto& id = selection.state().currentPath;
@@ -37,7 +33,7 @@ void stepPath(const client::Dataset& dataset, client::Selection& selection, int 
     const auto count = static_cast<std::int64_t>(paths.pathCount());
     const auto position = currentPath(dataset, selection);
     const std::int64_t from = position ? static_cast<std::int64_t>(*position) : (by > 0 ? -1 : 0);
-    selection.setPaths({idOf(paths, static_cast<Index>((from + by + count) % count))});
+    selection.setPaths({pathId(paths, static_cast<Index>((from + by + count) % count))});
 }
 
 void stepVertex(const client::Dataset& dataset, client::Selection& selection, int by) {
@@ -59,7 +55,7 @@ void stepVertex(const client::Dataset& dataset, client::Selection& selection, in
         if (by > 0) next = std::min(*current + 1, range.last - 1);
         else next = *current > range.first ? *current - 1 : range.first;
     }
-    selection.setVertex(vertexIdOf(paths, next));
+    selection.setVertex(vertexId(paths, next));
 }
 
 }  // namespace emca::explorer

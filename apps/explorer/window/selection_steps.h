@@ -15,8 +15,6 @@ void stepPath(const client::Dataset& dataset, client::Selection& selection, int 
 /// path it takes the first.
 void stepVertex(const client::Dataset& dataset, client::Selection& selection, int by);
 
-client::PathId idOf(const PathSet& paths, Index path);
-client::VertexId vertexIdOf(const PathSet& paths, Index vertex);
 /// Positions of what is selected, if it is loaded.
 std::optional<Index> currentPath(const client::Dataset& dataset, const client::Selection& selection);
 std::optional<Index> currentVertex(const client::Dataset& dataset, const client::Selection& selection);

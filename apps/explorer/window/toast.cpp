@@ -21,6 +21,8 @@ Toast::Toast(Theme& theme, QWidget* window)
     label_->setWordWrap(true);
     label_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     auto* close = new QToolButton;
+    close->setStyleSheet("padding: 0; font-size: 18px;");
+    close->setFixedSize(26, 26);
     close->setText(QStringLiteral("×"));
     close->setToolTip(tr("Close"));
     auto* layout = new QHBoxLayout(this);

@@ -5,14 +5,15 @@
 
 #include "base/theme.h"
 #include "image/image_view.h"
+#include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
+#include "paths/vertex_table.h"
 #include "plots/contribution_plot.h"
 #include "plots/depth_plot.h"
 #include "plots/luminance_plot.h"
 #include "scene/scene_options_panel.h"
 #include "scene/scene_view.h"
 #include "window/history_view.h"
-#include "window/vertex_view.h"
 
 namespace emca::explorer {
 
@@ -27,7 +28,8 @@ Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme&
     scroll->setWidget(new SceneOptionsPanel(*views.scene, theme));
     views.sceneOptions = scroll;
     views.paths = new PathTree(dataset, selection, theme);
-    views.vertex = new VertexView(dataset, selection, theme);
+    views.vertex = new VertexTable(dataset, selection, theme);
+    views.outliers = new OutlierPanel(dataset, selection, theme);
     views.history = new HistoryView(dataset, selection, theme);
     views.plots = {{QObject::tr("RGB"), "plots-rgb", new ContributionPlot(dataset, selection, theme)},
                    {QObject::tr("Luminance"), "plots-luminance", new LuminancePlot(dataset, selection, theme)},

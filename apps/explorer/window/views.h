@@ -11,11 +11,12 @@ namespace emca::explorer {
 
 class HistoryView;
 class ImageView;
+class OutlierPanel;
 class PathPlot;
 class PathTree;
 class SceneView;
 class Theme;
-class VertexView;
+class VertexTable;
 
 /// Every view of the window, made once; the docks own them.
 struct Views {
@@ -27,9 +28,9 @@ struct Views {
     SceneView* scene = nullptr;
     QWidget* sceneOptions = nullptr;
     PathTree* paths = nullptr;
-    VertexView* vertex = nullptr;
+    VertexTable* vertex = nullptr;
     HistoryView* history = nullptr;
-    QWidget* outliers = nullptr;
+    OutlierPanel* outliers = nullptr;
     std::vector<Plot> plots;
 
     static Views make(client::Dataset& dataset, client::Selection& selection, Theme& theme);
