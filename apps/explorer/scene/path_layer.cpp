@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kSelectedFactor = 1.75f;  ///< width of selected paths against others
 constexpr std::size_t kEyeRays = 12;      ///< all paths of a pixel begin alike: of those segments, so many are drawn
+constexpr std::size_t kCoarsePaths = 192; ///< drawn while the camera moves, where all are too slow
 constexpr std::size_t kFullDetailPaths = 32;  ///< more selected paths than this get no arrows and no dots
 
 QColor withAlpha(QColor color, double alpha) {
@@ -27,7 +28,7 @@ float densityOpacity(std::size_t paths) {
 }  // namespace
 
 PathLayer::PathLayer(vtkRenderer& strokes)
-    : context_(strokes), contextNextEvents_(strokes), selectedNextEvents_(strokes), selected_(strokes),
+    : context_(strokes), coarseContext_(strokes), contextNextEvents_(strokes), selectedNextEvents_(strokes), selected_(strokes),
       current_(strokes), marks_(strokes), hover_(strokes) {}
 
 void PathLayer::setPaths(const PathSet* paths, const PathGeometry* geometry) {
@@ -69,10 +70,11 @@ bool PathLayer::isDrawn(Index path) const { return std::ranges::binary_search(dr
 void PathLayer::rebuildContext() {
     drawn_.clear();
     contextRoles_ = {};
-    std::vector<Stroke> lines, nextEvents;
+    std::vector<Stroke> lines, someLines, nextEvents;
     if (paths_ && geometry_ && options_.paths == PathChoice::all) {
         drawn_ = evenlyChosen(geometry_->pathCount(), options_.maximumPaths);
         lines.reserve(geometry_->segments.size());
+        const std::size_t coarseStep = std::max<std::size_t>(1, drawn_.size() / kCoarsePaths);
         const std::size_t eyeStep = std::max<std::size_t>(1, drawn_.size() / kEyeRays);
         for (std::size_t i = 0; i < drawn_.size(); ++i) {
             const Index path = drawn_[i];
@@ -81,6 +83,7 @@ void PathLayer::rebuildContext() {
                 lines.push_back({s.start, s.end, options_.lineWidth, s.gap ? StrokeStyle::dashed : StrokeStyle::line,
                                  segmentColor(s, colors_)});
                 (s.kind == analysis::SegmentKind::scatter ? contextRoles_.path : contextRoles_.emitter) = true;
+                if (i % coarseStep == 0) someLines.push_back(lines.back());
             }
             if (options_.nextEvents == NextEventChoice::allPaths)
                 appendNextEvents(path, std::nullopt, 0.75f * options_.lineWidth, nextEvents);
@@ -89,6 +92,7 @@ void PathLayer::rebuildContext() {
     for (const Stroke& s : nextEvents)
         (s.color == colors_.nextEventVisible ? contextRoles_.visible : contextRoles_.occluded) = true;
     context_.setStrokes(lines);
+    coarseContext_.setStrokes(someLines);
     contextNextEvents_.setStrokes(nextEvents);
     updateDimming();
 }
@@ -165,6 +169,11 @@ void PathLayer::rebuildHover() {
 void PathLayer::updateDimming() {
     const bool dimmed = !selection_.paths.empty();
     const float density = densityOpacity(drawn_.size()) * options_.pathOpacity;
+    const float someDensity = densityOpacity(std::min(drawn_.size(), kCoarsePaths)) * options_.pathOpacity;
+    coarseContext_.look().opacity = dimmed ? 0.15f * someDensity + 0.02f : someDensity;
+    coarseContext_.setVisible(coarse_);
+    context_.setVisible(!coarse_);
+    contextNextEvents_.setVisible(!coarse_);
     context_.look().opacity = dimmed ? 0.15f * density + 0.02f : density;
     contextNextEvents_.look().opacity = dimmed ? 0.15f * density : 0.6f * density;
     // With one current path among several selected ones, that one leads.
@@ -176,8 +185,9 @@ void PathLayer::updateDimming() {
         layer->look().haloColor = halo;
         layer->look().writesDepth = true;
     }
-    for (StrokeLayer* layer : {&context_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_}) {
-        layer->look().fade = layer == &context_ || layer == &contextNextEvents_ ? 0.7f : 0.45f;
+    for (StrokeLayer* layer : {&context_, &coarseContext_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_}) {
+        const bool quiet = layer == &context_ || layer == &coarseContext_ || layer == &contextNextEvents_;
+        layer->look().fade = quiet ? 0.7f : 0.45f;
         layer->look().fadeColor = colors_.sceneBottom;
     }
     // Dots lie on surfaces, half of each inside: bring them forward, and what is selected more.
@@ -195,8 +205,13 @@ ShownRoles PathLayer::roles() const {
             a.visible || b.visible, a.occluded || b.occluded, b.selected};
 }
 
+void PathLayer::setCoarse(bool coarse) {
+    coarse_ = coarse;
+    updateDimming();
+}
+
 void PathLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar) {
-    for (StrokeLayer* layer : {&context_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_, &marks_, &hover_}) {
+    for (StrokeLayer* layer : {&context_, &coarseContext_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_, &marks_, &hover_}) {
         layer->look().pixelScale = pixelScale;
         layer->look().fadeNear = fadeNear;
         layer->look().fadeFar = fadeFar;

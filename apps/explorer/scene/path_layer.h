@@ -38,6 +38,8 @@ class PathLayer {
     void apply(const SceneOptions& options, const ThemeColors& colors);
     void setSelection(ShownSelection selection);
     void setHovered(std::optional<Index> vertex);
+    /// Only some of the paths that are not selected, as long as the camera moves and frames are slow.
+    void setCoarse(bool coarse);
     void prepareFrame(float pixelScale, float fadeNear, float fadeFar);
 
     /// Paths drawn whether selected or not.
@@ -60,9 +62,9 @@ class PathLayer {
     ShownSelection selection_;
     std::optional<Index> hovered_;
     std::vector<Index> drawn_;
-    StrokeLayer context_, contextNextEvents_, selectedNextEvents_, selected_, current_, marks_, hover_;
+    StrokeLayer context_, coarseContext_, contextNextEvents_, selectedNextEvents_, selected_, current_, marks_, hover_;
     ShownRoles contextRoles_, selectedRoles_;
-    bool begun_ = false;
+    bool begun_ = false, coarse_ = false;
 };
 
 }  // namespace emca::explorer

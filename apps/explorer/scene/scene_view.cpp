@@ -108,16 +108,24 @@ ViewPose SceneView::Impl::homePose() const {
 
 BoundingBox SceneView::Impl::box() const { return meshes && !meshes->box().empty ? meshes->box() : pathBox; }
 
+/// The axis of the world that is nearest to up in the image: the camera's own is tilted where it looks down.
+Vec3d SceneView::Impl::upAxis() const {
+    const Vec3d up = home.up;
+    const std::size_t axis = std::abs(up.y) >= std::max(std::abs(up.x), std::abs(up.z)) ? 1 : std::abs(up.z) > std::abs(up.x) ? 2 : 0;
+    Vec3d result;
+    result[axis] = up[axis] < 0 ? -1 : 1;
+    return result;
+}
+
 void SceneView::Impl::goHome(bool immediate) {
     const ViewPose pose = homePose();
-    if (input) input->setUpAxis(pose.up);
+    home = pose;
+    if (input) input->setUpAxis(upAxis());
     if (immediate) driver.moveTo(pose);
     else driver.flyTo(pose);
-    atHome = true;
 }
 
 void SceneView::Impl::poseMoved(const ViewPose& pose) {
-    atHome = false;
     if (canvas) {
         if (canvas->lastFrameSeconds() > kSlowFrame) setCoarse(true);
         settle.start();
@@ -128,9 +136,11 @@ void SceneView::Impl::poseMoved(const ViewPose& pose) {
 }
 
 void SceneView::Impl::setCoarse(bool coarse) {
-    if (!meshes || coarse == isCoarse || (coarse && !meshes->hasStandIn())) return;
+    if (!canvas || coarse == isCoarse) return;
     isCoarse = coarse;
     meshes->setCoarse(coarse);
+    pathLayer->setCoarse(coarse);
+    canvas->surfaces().SetUseFXAA(options.smoothEdges && !coarse);
     canvas->requestRender();
 }
 
@@ -146,10 +156,14 @@ void SceneView::Impl::prepareFrame() {
 
 void SceneView::Impl::datasetChanged(std::uint32_t parts) {
     using Part = client::DatasetPart;
+    if (parts & Part::meshes) {
+        loadError.clear();
+        loadingFraction.reset();
+    }
     if (parts & (Part::meshes | Part::camera | Part::info)) {
         if (parts & Part::meshes) loadMeshes();
         if (glyphs) glyphs->setCamera(dataset.camera(), imageAspect(), box().diagonal());
-        if (!moved() || (parts & Part::meshes)) goHome(true);
+        if (!moved()) goHome(true);
     }
     if (parts & (Part::currentTrace | Part::meshes | Part::camera)) rebuildPaths();
     updateState();
@@ -160,13 +174,16 @@ void SceneView::Impl::loadMeshes() { loader.load(dataset.meshes(), theme.colors(
 
 void SceneView::Impl::meshesReady(const std::shared_ptr<PreparedMeshes>& prepared) {
     if (!canvas) return;
-    const bool home = !moved();
+    const bool wasHome = !moved();
+    setCoarse(false);
     meshes->setMeshes(prepared);
-    isCoarse = false;
+    const BoundingBox now = meshes->box();
+    const bool sameScene = !now.empty && !lastBox.empty && now.min == lastBox.min && now.max == lastBox.max;
+    if (!now.empty) lastBox = now;
     glyphs->setCamera(dataset.camera(), imageAspect(), box().diagonal());
     rebuildPaths();
     applyOptions();
-    if (home) goHome(true);
+    if (wasHome || (!now.empty && !sameScene)) goHome(true);
     updateState();
 }
 
@@ -251,9 +268,8 @@ void SceneView::Impl::applyOptions() {
     if (driver.pose().orthographic != options.orthographic) {
         ViewPose pose = driver.target();
         pose.orthographic = options.orthographic;
-        const bool home = atHome;
+        home.orthographic = options.orthographic;
         driver.moveTo(pose);
-        atHome = home;
     }
     updateOverlay();
 }
@@ -265,8 +281,10 @@ void SceneView::Impl::updateState() {
         states->showBusy("Preparing the scene…");
     } else if (dataset.meshes() || !paths.empty()) {
         states->clear();
-    } else if (dataset.info()) {
-        states->showBusy("Loading the scene…");
+    } else if (!loadError.isEmpty()) {
+        states->showError(loadError, "Try again", [this] { emit view.reloadRequested(); });
+    } else if (dataset.info() || loadingFraction) {
+        states->showBusy("Loading the scene…", loadingFraction.value_or(-1));
     } else {
         states->showEmpty("No scene", "Connect to a renderer to see its scene and the paths of a pixel.", "Connect…",
                           [this] { emit view.connectRequested(); });
@@ -305,6 +323,18 @@ bool SceneView::isMoving() const { return impl_->driver.isMoving(); }
 double SceneView::lastFrameSeconds() const { return impl_->canvas ? impl_->canvas->lastFrameSeconds() : 0; }
 void SceneView::resetCamera() { impl_->goHome(false); }
 void SceneView::back() { impl_->driver.back(); }
+
+void SceneView::showLoading(double fraction) {
+    impl_->loadError.clear();
+    impl_->loadingFraction = fraction;
+    impl_->updateState();
+}
+
+void SceneView::showLoadError(const QString& sentence) {
+    impl_->loadError = sentence;
+    impl_->loadingFraction.reset();
+    impl_->updateState();
+}
 
 void SceneView::setRectangleMode(bool on) {
     if (impl_->input) impl_->input->setRectangleMode(on);

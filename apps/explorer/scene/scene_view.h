@@ -54,6 +54,10 @@ class SceneView : public QWidget {
     void focusSelection();              ///< the current vertex, else the selected paths, else the whole scene
     void back();
     void setRectangleMode(bool on);
+    /// Progress of the scene's way from the renderer, in [0, 1]; negative: unknown. Ends when the Dataset gets meshes.
+    void showLoading(double fraction);
+    /// One sentence why the scene did not come, with a button that asks for it again (reloadRequested).
+    void showLoadError(const QString& sentence);
 
   signals:
     void optionsChanged();
@@ -61,6 +65,7 @@ class SceneView : public QWidget {
     void poseChanged();
     /// The button of the empty state: somebody wants to connect.
     void connectRequested();
+    void reloadRequested();
 
   protected:
     void resizeEvent(QResizeEvent* event) override;

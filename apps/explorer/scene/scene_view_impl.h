@@ -48,8 +48,9 @@ class SceneView::Impl {
     Projection projection() const;
     Vec3d pivot() const;
     ViewPose homePose() const;
+    Vec3d upAxis() const;
     void goHome(bool immediate);
-    bool moved() const { return !atHome; }
+    bool moved() const { return !(driver.target() == home); }
     void poseMoved(const ViewPose& pose);
     void updateExtent();
     void showPath(Index path, std::optional<Index> vertex, bool always);
@@ -96,7 +97,10 @@ class SceneView::Impl {
     std::optional<QPointF> cursor;
     Vec3d extentCentre;
     double extentRadius = 1;
-    bool atHome = true;                   ///< nobody has moved the camera yet
+    ViewPose home;                        ///< the renderer's camera; the view is there until somebody moves it
+    BoundingBox lastBox;                  ///< of the scene before: one that comes again keeps the view
+    std::optional<double> loadingFraction;
+    QString loadError;
     bool isCoarse = false;
 
     // Last, so that no call arrives while the rest is being destroyed.
