@@ -1,0 +1,11 @@
+find_package(OpenImageIO QUIET)
+# Debian's package names the include folder of OpenCV without depending on it, and CMake refuses folders that do not exist.
+foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+  if(TARGET ${target})
+    get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+    set(existing)
+    foreach(folder IN LISTS folders)
+      if(EXISTS "${folder}")
+        list(APPEND existing "${folder}")
+      endif()
+    endforeach()
