@@ -18,9 +18,11 @@ void OutlierModel::setReport(const PathSet& paths, const analysis::OutlierReport
     found_.reserve(report.outliers.size());
     const bool several = severalPixels(paths);
     for (const Index path : report.outliers) {
-        const double value = analysis::pathValue(paths, path, quantity).value_or(std::numeric_limits<double>::quiet_NaN());
-        const double deviations = report.deviation > 0 && std::isfinite(value) ? (value - report.mean) / report.deviation
-                                                                               : std::numeric_limits<double>::quiet_NaN();
+        const double value =
+            analysis::pathValue(paths, path, quantity).value_or(std::numeric_limits<double>::quiet_NaN());
+        const double deviations = report.deviation > 0 && std::isfinite(value)
+                                      ? (value - report.mean) / report.deviation
+                                      : std::numeric_limits<double>::quiet_NaN();
         found_.push_back({pathId(paths, path), pathText(paths, path, several), value, deviations});
     }
     const auto rank = [](const Found& f) {
@@ -47,25 +49,33 @@ QVariant OutlierModel::data(const QModelIndex& index, int role) const {
         return int(Qt::AlignVCenter | (index.column() == kPath ? Qt::AlignLeft : Qt::AlignRight));
     if (role != Qt::DisplayRole) return {};
     switch (index.column()) {
-        case kPath: return found.name;
-        case kValue: return toQString(analysis::formatNumber(found.value));
+        case kPath:
+            return found.name;
+        case kValue:
+            return toQString(analysis::formatNumber(found.value));
         case kDeviations:
             if (!std::isfinite(found.deviations)) return QStringLiteral("–");
             return QString(found.deviations < 0 ? QStringLiteral("−") : QStringLiteral("+")) +
                    toQString(analysis::formatNumber(std::abs(found.deviations))) + QStringLiteral(" σ");
-        default: return {};
+        default:
+            return {};
     }
 }
 
 QVariant OutlierModel::headerData(int section, Qt::Orientation orientation, int role) const {
     if (orientation != Qt::Horizontal) return {};
-    if (role == Qt::TextAlignmentRole) return int(Qt::AlignVCenter | (section == kPath ? Qt::AlignLeft : Qt::AlignRight));
+    if (role == Qt::TextAlignmentRole)
+        return int(Qt::AlignVCenter | (section == kPath ? Qt::AlignLeft : Qt::AlignRight));
     if (role != Qt::DisplayRole) return {};
     switch (section) {
-        case kPath: return QStringLiteral("Path");
-        case kValue: return quantity_;
-        case kDeviations: return QStringLiteral("from the mean");
-        default: return {};
+        case kPath:
+            return QStringLiteral("Path");
+        case kValue:
+            return quantity_;
+        case kDeviations:
+            return QStringLiteral("from the mean");
+        default:
+            return {};
     }
 }
 

@@ -34,10 +34,18 @@ QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(q
 }  // namespace
 
 OutlierPanel::OutlierPanel(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
-    : QWidget(parent), dataset_(dataset), selection_(selection), model_(new OutlierModel(this)),
-      quantity_(new QComboBox), deviations_(new QDoubleSpinBox), upperOnly_(new QCheckBox(tr("bright side only"))),
-      automatic_(new QCheckBox(tr("select on new pixels"))), summary_(new QLabel), table_(new QTableView),
-      select_(new QPushButton(tr("Select in views"))), overlay_(new StateOverlay(theme, table_)),
+    : QWidget(parent),
+      dataset_(dataset),
+      selection_(selection),
+      model_(new OutlierModel(this)),
+      quantity_(new QComboBox),
+      deviations_(new QDoubleSpinBox),
+      upperOnly_(new QCheckBox(tr("bright side only"))),
+      automatic_(new QCheckBox(tr("select on new pixels"))),
+      summary_(new QLabel),
+      table_(new QTableView),
+      select_(new QPushButton(tr("Select in views"))),
+      overlay_(new StateOverlay(theme, table_)),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
                             if (parts & client::DatasetPart::currentTrace) reload();
@@ -144,8 +152,8 @@ void OutlierPanel::reload() {
 QString OutlierPanel::summaryText() const {
     if (dataset_.paths().empty()) return {};
     QString text = tr("%1 of %2 paths; mean %3, σ %4")
-                       .arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()), number(report_.mean),
-                            number(report_.deviation));
+                       .arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()),
+                            number(report_.mean), number(report_.deviation));
     if (report_.notFinite > 0) text += tr("; %1 NaN or infinite").arg(grouped(report_.notFinite));
     if (report_.withoutValue > 0) text += tr("; %1 without final estimate").arg(grouped(report_.withoutValue));
     return text;
@@ -182,7 +190,8 @@ void OutlierPanel::follow() {
         const int row = static_cast<int>(i);
         if (!rows.isEmpty() && rows.last().bottom() + 1 == row) {
             const int top = rows.last().top();
-            rows.last() = QItemSelectionRange(model_->index(top, 0), model_->index(row, OutlierModel::kColumnCount - 1));
+            rows.last() =
+                QItemSelectionRange(model_->index(top, 0), model_->index(row, OutlierModel::kColumnCount - 1));
         } else {
             rows.append(QItemSelectionRange(model_->index(row, 0), model_->index(row, OutlierModel::kColumnCount - 1)));
         }

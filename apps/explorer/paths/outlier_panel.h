@@ -43,8 +43,8 @@ class OutlierPanel : public QWidget {
     void build();
     void detect();
     void reload();
-    void follow();   ///< marks in the list what the Selection says
-    void choose();   ///< rows were chosen in the list
+    void follow();  ///< marks in the list what the Selection says
+    void choose();  ///< rows were chosen in the list
     void updateState();
 
     client::Dataset& dataset_;

@@ -30,26 +30,36 @@ void appendData(const PathSet& paths, Scope scope, Index owner, const QString& f
     }
 }
 
-
 /// The core value of an entry as a Value, so that all text and colour rules are stated once.
 std::optional<Value> coreValue(const PathSet& paths, const Entry& entry) {
     const auto wrap = [](const auto& value) { return value ? std::optional<Value>(*value) : std::nullopt; };
     switch (entry.kind) {
-        case Kind::finalEstimate: return wrap(paths.estimate(entry.owner));
+        case Kind::finalEstimate:
+            return wrap(paths.estimate(entry.owner));
         case Kind::luminance: {
             const std::optional<Color> estimate = paths.estimate(entry.owner);
             return estimate ? std::optional<Value>(luminance(*estimate)) : std::nullopt;
         }
-        case Kind::depth: return Value(std::int64_t(paths.depth(entry.owner)));
-        case Kind::origin: return wrap(paths.origin(entry.owner));
-        case Kind::splat: return Value(paths.columns().splats[entry.item].value);
-        case Kind::position: return wrap(paths.position(entry.owner));
-        case Kind::estimate: return wrap(paths.vertexEstimate(entry.owner));
-        case Kind::emission: return wrap(paths.emission(entry.owner));
-        case Kind::contribution: return Value(paths.contribution(entry.item).value);
-        case Kind::nextEvent: return Value(paths.nextEvent(entry.item).position);
-        case Kind::data: return paths.value(paths.userColumns()[entry.column], entry.item);
-        case Kind::surface: return std::nullopt;
+        case Kind::depth:
+            return Value(std::int64_t(paths.depth(entry.owner)));
+        case Kind::origin:
+            return wrap(paths.origin(entry.owner));
+        case Kind::splat:
+            return Value(paths.columns().splats[entry.item].value);
+        case Kind::position:
+            return wrap(paths.position(entry.owner));
+        case Kind::estimate:
+            return wrap(paths.vertexEstimate(entry.owner));
+        case Kind::emission:
+            return wrap(paths.emission(entry.owner));
+        case Kind::contribution:
+            return Value(paths.contribution(entry.item).value);
+        case Kind::nextEvent:
+            return Value(paths.nextEvent(entry.item).position);
+        case Kind::data:
+            return paths.value(paths.userColumns()[entry.column], entry.item);
+        case Kind::surface:
+            return std::nullopt;
     }
     return std::nullopt;
 }
@@ -73,7 +83,8 @@ QString noteOf(const PathSet& paths, const Entry& entry, bool full) {
         case Kind::splat:
             return QStringLiteral("to pixel ") +
                    toQString(analysis::formatPixel(paths.columns().splats[entry.item].pixel));
-        default: return {};
+        default:
+            return {};
     }
 }
 
@@ -120,22 +131,33 @@ void appendVertexEntries(const PathSet& paths, Index vertex, const QString& filt
 
 QString keyText(const PathSet& paths, const Entry& entry) {
     switch (entry.kind) {
-        case Kind::finalEstimate: return QStringLiteral("final estimate");
-        case Kind::luminance: return QStringLiteral("luminance");
-        case Kind::depth: return QStringLiteral("depth");
-        case Kind::origin: return QStringLiteral("origin");
-        case Kind::splat: return QStringLiteral("splat");
-        case Kind::position: return QStringLiteral("position");
-        case Kind::estimate: return QStringLiteral("estimate so far");
-        case Kind::emission: return QStringLiteral("emission");
-        case Kind::surface: return QStringLiteral("surface");
+        case Kind::finalEstimate:
+            return QStringLiteral("final estimate");
+        case Kind::luminance:
+            return QStringLiteral("luminance");
+        case Kind::depth:
+            return QStringLiteral("depth");
+        case Kind::origin:
+            return QStringLiteral("origin");
+        case Kind::splat:
+            return QStringLiteral("splat");
+        case Kind::position:
+            return QStringLiteral("position");
+        case Kind::estimate:
+            return QStringLiteral("estimate so far");
+        case Kind::emission:
+            return QStringLiteral("emission");
+        case Kind::surface:
+            return QStringLiteral("surface");
         case Kind::contribution: {
             const std::string_view technique = paths.text(paths.contribution(entry.item).technique);
             return technique.empty() ? QStringLiteral("contribution")
                                      : QStringLiteral("contribution · ") + toQString(technique);
         }
-        case Kind::nextEvent: return QStringLiteral("next event");
-        case Kind::data: return toQString(paths.userColumns()[entry.column].name);
+        case Kind::nextEvent:
+            return QStringLiteral("next event");
+        case Kind::data:
+            return toQString(paths.userColumns()[entry.column].name);
     }
     return {};
 }
@@ -166,7 +188,8 @@ ValueCells valueCells(const Value& value) {
     const bool integers = std::holds_alternative<Vec2i>(value) || std::holds_alternative<Vec3i>(value);
     for (int i = 0; i < components; ++i) {
         const double x = component(value, static_cast<std::size_t>(i));
-        cells.numbers.append(toQString(integers ? analysis::formatInteger(std::int64_t(x)) : analysis::formatNumber(x)));
+        cells.numbers.append(
+            toQString(integers ? analysis::formatInteger(std::int64_t(x)) : analysis::formatNumber(x)));
     }
     return cells;
 }
@@ -191,8 +214,7 @@ Tone toneOf(const PathSet& paths, const Entry& entry) {
     const std::optional<Value> value = coreValue(paths, entry);
     if (value && hasNonFinite(*value)) return Tone::warning;
     if (entry.kind == Kind::contribution && std::isinf(paths.contribution(entry.item).misWeight)) return Tone::warning;
-    if (entry.kind == Kind::nextEvent)
-        return paths.nextEvent(entry.item).visible ? Tone::visible : Tone::occluded;
+    if (entry.kind == Kind::nextEvent) return paths.nextEvent(entry.item).visible ? Tone::visible : Tone::occluded;
     return Tone::normal;
 }
 

@@ -14,16 +14,25 @@ namespace emca::explorer {
 struct Entry {
     enum class Kind : std::uint8_t {
         // of a path
-        finalEstimate, luminance, depth, origin, splat,
+        finalEstimate,
+        luminance,
+        depth,
+        origin,
+        splat,
         // of a vertex
-        position, estimate, emission, surface, contribution, nextEvent,
+        position,
+        estimate,
+        emission,
+        surface,
+        contribution,
+        nextEvent,
         // of either: a value of user data
         data,
     };
     Kind kind = Kind::data;
-    Index owner = 0;            ///< path or vertex
-    std::uint32_t column = 0;   ///< data: which of PathSet::userColumns()
-    Index item = 0;             ///< data: value of the column; splat, contribution, nextEvent: position in the PathSet
+    Index owner = 0;           ///< path or vertex
+    std::uint32_t column = 0;  ///< data: which of PathSet::userColumns()
+    Index item = 0;            ///< data: value of the column; splat, contribution, nextEvent: position in the PathSet
     friend bool operator==(const Entry&, const Entry&) = default;
 };
 

@@ -33,9 +33,9 @@ struct Ordering {
     bool descending;
 };
 constexpr Ordering kOrderings[] = {
-    {"Sample ↑", PathOrder::sample, false},        {"Sample ↓", PathOrder::sample, true},
-    {"Luminance ↓", PathOrder::luminance, true},   {"Luminance ↑", PathOrder::luminance, false},
-    {"Depth ↓", PathOrder::depth, true},           {"Depth ↑", PathOrder::depth, false},
+    {"Sample ↑", PathOrder::sample, false},      {"Sample ↓", PathOrder::sample, true},
+    {"Luminance ↓", PathOrder::luminance, true}, {"Luminance ↑", PathOrder::luminance, false},
+    {"Depth ↓", PathOrder::depth, true},         {"Depth ↑", PathOrder::depth, false},
 };
 
 QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
@@ -52,11 +52,18 @@ QToolButton* textButton(const QString& text, const QString& tip, bool checkable)
 }  // namespace
 
 PathTree::PathTree(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
-    : QWidget(parent), dataset_(dataset), selection_(selection), theme_(theme), model_(new PathTreeModel(this)),
-      delegate_(new PathTreeDelegate(theme, this)), view_(new PathTreeView(*model_, theme, this)),
-      overlay_(new StateOverlay(theme, view_)), count_(new QLabel),
+    : QWidget(parent),
+      dataset_(dataset),
+      selection_(selection),
+      theme_(theme),
+      model_(new PathTreeModel(this)),
+      delegate_(new PathTreeDelegate(theme, this)),
+      view_(new PathTreeView(*model_, theme, this)),
+      overlay_(new StateOverlay(theme, view_)),
+      count_(new QLabel),
       all_(textButton(tr("All"), tr("Show all paths"), true)),
-      selected_(textButton(tr("Selected"), tr("Show only the selected paths"), true)), order_(new QComboBox),
+      selected_(textButton(tr("Selected"), tr("Show only the selected paths"), true)),
+      order_(new QComboBox),
       find_(new QLineEdit),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
@@ -87,7 +94,8 @@ void PathTree::buildHeader() {
     find_->setClearButtonEnabled(true);
     find_->setMinimumWidth(80);
     find_->setMaximumWidth(116);
-    auto* expand = textButton(QStringLiteral("▾"), tr("Expand: the selected paths whole, or all paths to their vertices"), false);
+    auto* expand =
+        textButton(QStringLiteral("▾"), tr("Expand: the selected paths whole, or all paths to their vertices"), false);
     auto* collapse = textButton(QStringLiteral("▸"), tr("Collapse all paths"), false);
 
     for (QToolButton* button : {expand, collapse}) button->setFixedWidth(Spacing::control);
@@ -154,12 +162,12 @@ void PathTree::updateState() {
     count_->setText(countText());
     if (dataset_.paths().empty()) {
         const bool traced = !dataset_.current().empty();
-        overlay_->showEmpty(traced ? tr("No paths") : tr("Paths of a pixel"),
-                            traced ? tr("The renderer recorded no path for this pixel")
-                                   : tr("Click a pixel in the image"));
+        overlay_->showEmpty(
+            traced ? tr("No paths") : tr("Paths of a pixel"),
+            traced ? tr("The renderer recorded no path for this pixel") : tr("Click a pixel in the image"));
     } else if (model_->shown().empty()) {
-        overlay_->showEmpty(tr("Nothing selected"), tr("Select paths in a plot or in the 3D view"), tr("Show all paths"),
-                            [this] { showAll(); });
+        overlay_->showEmpty(tr("Nothing selected"), tr("Select paths in a plot or in the 3D view"),
+                            tr("Show all paths"), [this] { showAll(); });
     } else {
         overlay_->clear();
     }
@@ -197,7 +205,8 @@ void PathTree::selectRows() {
         if (const auto position = findVertex(paths, *state.vertex)) vertex = model_->vertexIndex(*position);
     if (vertex.isValid()) std::erase(positions, model_->pathOf(vertex));  // its row stands for the path
     QItemSelection rows = view_->rowsOf(positions);
-    if (vertex.isValid()) rows.append(QItemSelectionRange(vertex, vertex.siblingAtColumn(PathTreeModel::kColumnCount - 1)));
+    if (vertex.isValid())
+        rows.append(QItemSelectionRange(vertex, vertex.siblingAtColumn(PathTreeModel::kColumnCount - 1)));
     QItemSelectionModel* selected = view_->selectionModel();
     selected->reset();  // Qt compares old ranges with new ones pair by pair; from nothing it is linear
     if (vertex.isValid()) current = vertex;

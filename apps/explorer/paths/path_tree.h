@@ -46,11 +46,11 @@ class PathTree : public QWidget {
 
   private:
     void buildHeader();
-    void reload();              ///< other paths, or others of them to show
-    void follow();              ///< the Selection changed
-    void adopt();               ///< the rows chosen here changed
-    void selectRows();          ///< rows as the Selection says
-    void reveal();              ///< current vertex or path, if another view made it current
+    void reload();      ///< other paths, or others of them to show
+    void follow();      ///< the Selection changed
+    void adopt();       ///< the rows chosen here changed
+    void selectRows();  ///< rows as the Selection says
+    void reveal();      ///< current vertex or path, if another view made it current
     void updateState();
     void filterKeys(const QString& text);
     void showMenu(const QPoint& position);
@@ -71,8 +71,8 @@ class PathTree : public QWidget {
     QComboBox* order_;
     QLineEdit* find_;
     bool inspecting_ = false;
-    std::vector<client::PathId> inspected_;  ///< what inspectSelected shows
-    bool selecting_ = false;                 ///< rows are being set by us
+    std::vector<client::PathId> inspected_;            ///< what inspectSelected shows
+    bool selecting_ = false;                           ///< rows are being set by us
     std::optional<client::Selection::State> written_;  ///< what adopt() wrote last: not news when it comes back
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;

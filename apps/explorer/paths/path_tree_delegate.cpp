@@ -25,10 +25,14 @@ int drawText(QPainter& painter, const QRect& rect, const QString& text, const QF
 
 QColor toneColor(Tone tone, const ThemeColors& c, const QColor& normal) {
     switch (tone) {
-        case Tone::warning: return c.warning;
-        case Tone::visible: return c.nextEventVisible;
-        case Tone::occluded: return c.nextEventOccluded;
-        case Tone::normal: break;
+        case Tone::warning:
+            return c.warning;
+        case Tone::visible:
+            return c.nextEventVisible;
+        case Tone::occluded:
+            return c.nextEventOccluded;
+        case Tone::normal:
+            break;
     }
     return normal;
 }
@@ -75,7 +79,8 @@ void PathTreeDelegate::paintItem(QPainter& painter, const QRect& rect, const QMo
             QColor mark = c.accent;
             mark.setAlphaF(0.3);
             painter.fillRect(QRect(left, rect.top() + 4, metrics.horizontalAdvance(text.mid(at, highlight_.size())),
-                                   rect.height() - 8), mark);
+                                   rect.height() - 8),
+                             mark);
         }
     }
     const int end = drawText(painter, rect, text, theme_.font(), quiet ? c.mutedText : c.text);
@@ -93,7 +98,8 @@ void PathTreeDelegate::paintValue(QPainter& painter, const QRect& rect, const QM
     const QStringList numbers = index.data(PathTreeModel::kNumbersRole).toStringList();
     if (numbers.isEmpty()) {
         const bool quiet = kind != Kind::infoEntry && kind != Kind::dataEntry && kind != Kind::vertexEntry;
-        drawText(painter, rect, index.data(Qt::DisplayRole).toString(), theme_.numberFont(), quiet ? c.mutedText : c.text);
+        drawText(painter, rect, index.data(Qt::DisplayRole).toString(), theme_.numberFont(),
+                 quiet ? c.mutedText : c.text);
         return;
     }
     paintNumbers(painter, rect, numbers, c.text, theme_);

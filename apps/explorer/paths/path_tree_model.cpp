@@ -177,10 +177,14 @@ std::optional<Entry> PathTreeModel::entryOf(const QModelIndex& index) const {
         return n.entry < list.size() ? std::optional<Entry>(list[n.entry]) : std::nullopt;
     };
     switch (n.kind) {
-        case Kind::infoEntry: return from(Kind::infoGroup);
-        case Kind::dataEntry: return from(Kind::dataGroup);
-        case Kind::vertexEntry: return from(Kind::vertex);
-        default: return std::nullopt;
+        case Kind::infoEntry:
+            return from(Kind::infoGroup);
+        case Kind::dataEntry:
+            return from(Kind::dataGroup);
+        case Kind::vertexEntry:
+            return from(Kind::vertex);
+        default:
+            return std::nullopt;
     }
 }
 
@@ -218,12 +222,17 @@ QModelIndex PathTreeModel::index(int row, int column, const QModelIndex& parent)
             const Groups present = groups(n.owner);
             if (row < present.count())
                 return create(row, column, {row == 0 && present.info ? Kind::infoGroup : Kind::dataGroup, n.owner, 0});
-            return create(row, column, {Kind::vertex, paths_.vertices(n.owner).first + entry - Index(present.count()), 0});
+            return create(row, column,
+                          {Kind::vertex, paths_.vertices(n.owner).first + entry - Index(present.count()), 0});
         }
-        case Kind::infoGroup: return create(row, column, {Kind::infoEntry, n.owner, entry});
-        case Kind::dataGroup: return create(row, column, {Kind::dataEntry, n.owner, entry});
-        case Kind::vertex: return create(row, column, {Kind::vertexEntry, n.owner, entry});
-        default: return {};
+        case Kind::infoGroup:
+            return create(row, column, {Kind::infoEntry, n.owner, entry});
+        case Kind::dataGroup:
+            return create(row, column, {Kind::dataEntry, n.owner, entry});
+        case Kind::vertex:
+            return create(row, column, {Kind::vertexEntry, n.owner, entry});
+        default:
+            return {};
     }
 }
 
@@ -232,12 +241,18 @@ QModelIndex PathTreeModel::parent(const QModelIndex& child) const {
     const Node n = node(child);
     switch (n.kind) {
         case Kind::infoGroup:
-        case Kind::dataGroup: return pathIndex(n.owner);
-        case Kind::vertex: return pathIndex(paths_.pathOf(n.owner));
-        case Kind::infoEntry: return groupIndex(n.owner, false);
-        case Kind::dataEntry: return groupIndex(n.owner, true);
-        case Kind::vertexEntry: return vertexIndex(n.owner);
-        case Kind::path: return {};
+        case Kind::dataGroup:
+            return pathIndex(n.owner);
+        case Kind::vertex:
+            return pathIndex(paths_.pathOf(n.owner));
+        case Kind::infoEntry:
+            return groupIndex(n.owner, false);
+        case Kind::dataEntry:
+            return groupIndex(n.owner, true);
+        case Kind::vertexEntry:
+            return vertexIndex(n.owner);
+        case Kind::path:
+            return {};
     }
     return {};
 }
@@ -254,11 +269,14 @@ int PathTreeModel::rowCount(const QModelIndex& parent) const {
     if (parent.column() != 0) return 0;
     const Node n = node(parent);
     switch (n.kind) {
-        case Kind::path: return groups(n.owner).count() + static_cast<int>(paths_.vertices(n.owner).size());
+        case Kind::path:
+            return groups(n.owner).count() + static_cast<int>(paths_.vertices(n.owner).size());
         case Kind::infoGroup:
         case Kind::dataGroup:
-        case Kind::vertex: return static_cast<int>(entries(n.kind, n.owner).size());
-        default: return 0;
+        case Kind::vertex:
+            return static_cast<int>(entries(n.kind, n.owner).size());
+        default:
+            return 0;
     }
 }
 
@@ -275,9 +293,12 @@ QVariant PathTreeModel::headerData(int section, Qt::Orientation orientation, int
     if (role == Qt::TextAlignmentRole) return int(Qt::AlignLeft | Qt::AlignVCenter);
     if (role != Qt::DisplayRole) return {};
     switch (section) {
-        case kItem: return QStringLiteral("Item");
-        case kValue: return QStringLiteral("Value  (radiance in W/(sr m²))");
-        default: return {};
+        case kItem:
+            return QStringLiteral("Item");
+        case kValue:
+            return QStringLiteral("Value  (radiance in W/(sr m²))");
+        default:
+            return {};
     }
 }
 
@@ -286,11 +307,15 @@ QVariant PathTreeModel::data(const QModelIndex& index, int role) const {
     const Node n = node(index);
     if (role == kNodeKindRole) return int(n.kind);
     switch (n.kind) {
-        case Kind::path: return pathData(n.owner, index.column(), role);
-        case Kind::vertex: return vertexData(n.owner, index.column(), role);
+        case Kind::path:
+            return pathData(n.owner, index.column(), role);
+        case Kind::vertex:
+            return vertexData(n.owner, index.column(), role);
         case Kind::infoGroup:
-        case Kind::dataGroup: return groupData(n, index.column(), role);
-        default: break;
+        case Kind::dataGroup:
+            return groupData(n, index.column(), role);
+        default:
+            break;
     }
     const std::optional<Entry> entry = entryOf(index);
     return entry ? entryData(*entry, index.column(), role) : QVariant();
@@ -320,7 +345,8 @@ QVariant PathTreeModel::pathData(Index path, int column, int role) const {
         return QStringLiteral("%1 of pixel %2, depth %3")
             .arg(pathText(paths_, path, false), toQString(analysis::formatPixel(paths_.pixel(path))))
             .arg(paths_.depth(path));
-    if (role == Qt::DisplayRole && column == kValue && !paths_.estimate(path)) return QStringLiteral("no final estimate");
+    if (role == Qt::DisplayRole && column == kValue && !paths_.estimate(path))
+        return QStringLiteral("no final estimate");
     return colorRow(paths_.estimate(path), column, role);
 }
 
@@ -336,7 +362,9 @@ QVariant PathTreeModel::groupData(const Node& n, int column, int role) const {
     if (column != kValue) return {};
     const std::size_t count = entries(n.kind, n.owner).size();
     if (n.kind == Kind::dataGroup) return counted(count, "value", "values");
-    return QStringLiteral("depth %1, %2").arg(paths_.depth(n.owner)).arg(counted(paths_.vertices(n.owner).size(), "vertex", "vertices"));
+    return QStringLiteral("depth %1, %2")
+        .arg(paths_.depth(n.owner))
+        .arg(counted(paths_.vertices(n.owner).size(), "vertex", "vertices"));
 }
 
 QVariant PathTreeModel::entryData(const Entry& entry, int column, int role) const {
@@ -345,16 +373,22 @@ QVariant PathTreeModel::entryData(const Entry& entry, int column, int role) cons
             if (column == kItem) return keyText(paths_, entry);
             if (column == kValue) return valueText(paths_, entry);
             return {};
-        case Qt::ToolTipRole: return keyText(paths_, entry) + QStringLiteral(": ") + fullValueText(paths_, entry);
-        case kFullTextRole: return fullValueText(paths_, entry);
-        case kNumbersRole: return valueCells(paths_, entry).numbers;
-        case kNoteRole: return column == kValue ? valueCells(paths_, entry).note : QString();
-        case kToneRole: return int(toneOf(paths_, entry));
+        case Qt::ToolTipRole:
+            return keyText(paths_, entry) + QStringLiteral(": ") + fullValueText(paths_, entry);
+        case kFullTextRole:
+            return fullValueText(paths_, entry);
+        case kNumbersRole:
+            return valueCells(paths_, entry).numbers;
+        case kNoteRole:
+            return column == kValue ? valueCells(paths_, entry).note : QString();
+        case kToneRole:
+            return int(toneOf(paths_, entry));
         case kColorRole: {
             const std::optional<Color> color = colorOf(paths_, entry);
             return color ? QVariant::fromValue(*color) : QVariant();
         }
-        default: return {};
+        default:
+            return {};
     }
 }
 

@@ -31,10 +31,18 @@ class PathTreeModel : public QAbstractItemModel {
 
     /// What a row is.
     struct Node {
-        enum class Kind : std::uint8_t { path = 0, infoGroup = 1, dataGroup = 2, vertex = 3, infoEntry = 4, dataEntry = 5, vertexEntry = 6 };
+        enum class Kind : std::uint8_t {
+            path = 0,
+            infoGroup = 1,
+            dataGroup = 2,
+            vertex = 3,
+            infoEntry = 4,
+            dataEntry = 5,
+            vertexEntry = 6
+        };
         Kind kind = Kind::path;
-        Index owner = 0;         ///< path; of vertices and their entries: vertex
-        std::uint32_t entry = 0; ///< number of the entry below its parent
+        Index owner = 0;          ///< path; of vertices and their entries: vertex
+        std::uint32_t entry = 0;  ///< number of the entry below its parent
         friend bool operator==(const Node&, const Node&) = default;
     };
 
@@ -82,7 +90,10 @@ class PathTreeModel : public QAbstractItemModel {
     QModelIndex create(int row, int column, const Node& node) const;
     const std::vector<Entry>& entries(Node::Kind parent, Index owner) const;
     /// Which of the groups a path has; they come before its vertices.
-    struct Groups { bool info = false, data = false; int count() const { return int(info) + int(data); } };
+    struct Groups {
+        bool info = false, data = false;
+        int count() const { return int(info) + int(data); }
+    };
     Groups groups(Index path) const;
     void arrange();
 
@@ -99,7 +110,12 @@ class PathTreeModel : public QAbstractItemModel {
     PathOrder order_ = PathOrder::sample;
     bool descending_ = false;
     // Entries of the owner asked for last: views ask for row after row of the same one.
-    struct Cache { bool valid = false; Node::Kind parent{}; Index owner = 0; std::vector<Entry> entries; };
+    struct Cache {
+        bool valid = false;
+        Node::Kind parent{};
+        Index owner = 0;
+        std::vector<Entry> entries;
+    };
     mutable Cache cache_;
 };
 

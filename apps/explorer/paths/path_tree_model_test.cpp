@@ -150,8 +150,14 @@ class CountingModel : public PathTreeModel {
         ++calls;
         return PathTreeModel::index(row, column, parent);
     }
-    int rowCount(const QModelIndex& parent = {}) const override { ++calls; return PathTreeModel::rowCount(parent); }
-    QVariant data(const QModelIndex& index, int role) const override { ++calls; return PathTreeModel::data(index, role); }
+    int rowCount(const QModelIndex& parent = {}) const override {
+        ++calls;
+        return PathTreeModel::rowCount(parent);
+    }
+    QVariant data(const QModelIndex& index, int role) const override {
+        ++calls;
+        return PathTreeModel::data(index, role);
+    }
     mutable std::size_t calls = 0;
 };
 

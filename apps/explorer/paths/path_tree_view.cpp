@@ -54,7 +54,8 @@ PathTreeView::Arrangement PathTreeView::arrangement() const {
         Arrangement::Expanded expanded{pathId(paths, path), {}};
         for (const bool dataGroup : {false, true}) {
             const QModelIndex group = model_.groupIndex(path, dataGroup);
-            if (group.isValid() && isExpanded(group)) expanded.children.push_back({false, dataGroup, 0, Subpath::camera});
+            if (group.isValid() && isExpanded(group))
+                expanded.children.push_back({false, dataGroup, 0, Subpath::camera});
         }
         const IndexRange vertices = paths.vertices(path);
         for (Index v = vertices.first; v < vertices.last; ++v)

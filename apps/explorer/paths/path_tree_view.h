@@ -21,9 +21,9 @@ class PathTreeView : public QTreeView {
     /// What a person has arranged, by identifiers, so that it outlives a reset of the model.
     struct Arrangement {
         struct Child {
-            bool vertex = false;      ///< else a group
-            bool dataGroup = false;   ///< groups
-            std::int32_t depth = 0;   ///< vertices
+            bool vertex = false;     ///< else a group
+            bool dataGroup = false;  ///< groups
+            std::int32_t depth = 0;  ///< vertices
             Subpath subpath = Subpath::camera;
         };
         struct Expanded {
@@ -31,8 +31,8 @@ class PathTreeView : public QTreeView {
             std::vector<Child> children;  ///< those expanded below it
         };
         std::vector<Expanded> expanded;
-        std::optional<client::PathId> topPath;     ///< path of the first visible row
-        std::optional<client::VertexId> topVertex; ///< its vertex, if it is on one
+        std::optional<client::PathId> topPath;      ///< path of the first visible row
+        std::optional<client::VertexId> topVertex;  ///< its vertex, if it is on one
         int horizontal = 0;
     };
     Arrangement arrangement() const;

@@ -24,7 +24,8 @@ void paintSwatch(QPainter& painter, const QRect& rect, Color color, const analys
         painter.restore();
         return;
     }
-    const analysis::Color8 shown = mapper.color({std::max(color.r, 0.f), std::max(color.g, 0.f), std::max(color.b, 0.f)});
+    const analysis::Color8 shown =
+        mapper.color({std::max(color.r, 0.f), std::max(color.g, 0.f), std::max(color.b, 0.f)});
     const QColor fill(shown.r, shown.g, shown.b);
     painter.setPen(QPen(c.border, 1));
     painter.setBrush(fill);
@@ -32,7 +33,8 @@ void paintSwatch(QPainter& painter, const QRect& rect, Color color, const analys
     if (mapper.clips(color)) {
         const double stops = std::log2(double(maxComponent(color))) + double(mapper.settings().exposure);
         painter.setPen(fill.lightnessF() > 0.55 ? QColor("#1a1b1d") : QColor("#f5f5f5"));
-        painter.drawText(rect, Qt::AlignCenter, QStringLiteral("+") + QString::number(stops, 'f', stops < 9.95 ? 1 : 0));
+        painter.drawText(rect, Qt::AlignCenter,
+                         QStringLiteral("+") + QString::number(stops, 'f', stops < 9.95 ? 1 : 0));
     }
     if (std::min({color.r, color.g, color.b}) < 0) {
         painter.setPen(Qt::NoPen);

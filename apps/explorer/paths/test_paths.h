@@ -17,9 +17,9 @@ namespace emca::explorer::test {
 struct FakeOptions {
     Pixel pixel{174, 169};
     std::uint32_t samples = 1024;
-    std::uint32_t vertices = 8;       ///< of each path; 0: between 2 and 8, as a path tracer with roulette makes them
+    std::uint32_t vertices = 8;  ///< of each path; 0: between 2 and 8, as a path tracer with roulette makes them
     std::int64_t firstSample = 0;
-    std::int64_t firefly = -1;        ///< sample index of a path 300 times as bright; -1: none
+    std::int64_t firefly = -1;  ///< sample index of a path 300 times as bright; -1: none
     bool estimates = true;
     std::uint32_t seed = 1;
 };
@@ -34,7 +34,8 @@ SharedArray<std::byte> bytesOf(const std::vector<T>& values) {
 }
 
 template <typename T>
-Column column(std::string name, Scope scope, ValueType type, const std::vector<T>& values, std::vector<Index> owners = {}) {
+Column column(std::string name, Scope scope, ValueType type, const std::vector<T>& values,
+              std::vector<Index> owners = {}) {
     Column c;
     c.name = std::move(name);
     c.scope = scope;
@@ -68,9 +69,10 @@ inline PathSet fakePaths(const FakeOptions& options = {}) {
     std::vector<Vec2f> randoms;
     for (std::uint32_t i = 0; i < options.samples; ++i) {
         const bool bright = options.firstSample + i == options.firefly;
-        const std::uint32_t count = options.vertices ? options.vertices
-                                    : bright         ? 6
-                                                     : 2 + std::min<std::uint32_t>(6, std::uint32_t(-2.f * std::log(1.f - uniform(random))));
+        const std::uint32_t count =
+            options.vertices ? options.vertices
+            : bright         ? 6
+                             : 2 + std::min<std::uint32_t>(6, std::uint32_t(-2.f * std::log(1.f - uniform(random))));
         pixels.push_back(options.pixel);
         samples.push_back(options.firstSample + i);
         parts.push_back(0);
@@ -100,7 +102,8 @@ inline PathSet fakePaths(const FakeOptions& options = {}) {
                 if (visible) {
                     light = throughput * Color(0.28f, 0.25f, 0.2f) * (0.3f + uniform(random));
                     contributionOwners.push_back(vertex);
-                    contributions.push_back({light, 0.5f + 0.5f * uniform(random), kLightSampling, LightEnd::connected, {}});
+                    contributions.push_back(
+                        {light, 0.5f + 0.5f * uniform(random), kLightSampling, LightEnd::connected, {}});
                 }
             }
             if (last && (bright || uniform(random) < 0.1f)) {
@@ -113,7 +116,8 @@ inline PathSet fakePaths(const FakeOptions& options = {}) {
             vertexEstimates.push_back(sum);
             emissions.push_back(last ? Color(18.4f, 15.6f, 8.f) : Color(0));
             using F = VertexFlag;
-            vertexFlags.push_back(std::uint8_t(F::hasPosition | F::hasEstimate | F::hasSurface | F::hasEvent | (last ? F::hasEmission : 0)));
+            vertexFlags.push_back(std::uint8_t(F::hasPosition | F::hasEstimate | F::hasSurface | F::hasEvent |
+                                               (last ? F::hasEmission : 0)));
         }
         estimates.push_back(sum);
         pathFlags.push_back(std::uint8_t(PathFlag::hasOrigin | (options.estimates ? PathFlag::hasEstimate : 0)));

@@ -15,7 +15,9 @@ constexpr int kGap = 8;
 
 }  // namespace
 
-int numberCellWidth(const QFont& font) { return QFontMetrics(font).horizontalAdvance(QStringLiteral("1.234e-05")) + kGap; }
+int numberCellWidth(const QFont& font) {
+    return QFontMetrics(font).horizontalAdvance(QStringLiteral("1.234e-05")) + kGap;
+}
 
 void paintNumbers(QPainter& painter, const QRect& rect, const QStringList& numbers, const QColor& color,
                   const Theme& theme) {

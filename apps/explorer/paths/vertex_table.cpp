@@ -21,8 +21,14 @@
 namespace emca::explorer {
 
 VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
-    : QWidget(parent), dataset_(dataset), selection_(selection), model_(new VertexTableModel(this)), title_(new QLabel),
-      back_(new QToolButton), forward_(new QToolButton), table_(new QTableView),
+    : QWidget(parent),
+      dataset_(dataset),
+      selection_(selection),
+      model_(new VertexTableModel(this)),
+      title_(new QLabel),
+      back_(new QToolButton),
+      forward_(new QToolButton),
+      table_(new QTableView),
       overlay_(new StateOverlay(theme, table_)),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
@@ -87,8 +93,9 @@ void VertexTable::reload() {
         overlay_->clear();
     } else {
         title_->clear();
-        overlay_->showEmpty(tr("Values of a vertex"), paths.empty() ? tr("Click a pixel in the image")
-                                                                    : tr("Click a vertex in the 3D view or in the tree"));
+        overlay_->showEmpty(tr("Values of a vertex"), paths.empty()
+                                                          ? tr("Click a pixel in the image")
+                                                          : tr("Click a vertex in the 3D view or in the tree"));
     }
 }
 

@@ -15,10 +15,14 @@ constexpr int kSwatchWidth = 36;
 
 QColor toneColor(Tone tone, const ThemeColors& c, const QColor& normal) {
     switch (tone) {
-        case Tone::warning: return c.warning;
-        case Tone::visible: return c.nextEventVisible;
-        case Tone::occluded: return c.nextEventOccluded;
-        case Tone::normal: break;
+        case Tone::warning:
+            return c.warning;
+        case Tone::visible:
+            return c.nextEventVisible;
+        case Tone::occluded:
+            return c.nextEventOccluded;
+        case Tone::normal:
+            break;
     }
     return normal;
 }

@@ -102,7 +102,9 @@ QVariant VertexTableModel::headerData(int section, Qt::Orientation orientation, 
     if (section == kQuantity) return QStringLiteral("Quantity");
     const QString& title = titles_[static_cast<std::size_t>(section - kPrevious)];
     if (!title.isEmpty()) return title;
-    return section == kPrevious ? QStringLiteral("no vertex before") : section == kNext ? QStringLiteral("no vertex after") : QString();
+    return section == kPrevious ? QStringLiteral("no vertex before")
+           : section == kNext   ? QStringLiteral("no vertex after")
+                                : QString();
 }
 
 }  // namespace emca::explorer

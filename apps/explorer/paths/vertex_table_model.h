@@ -18,7 +18,7 @@ class VertexTableModel : public QAbstractTableModel {
     struct Cell {
         bool present = false;
         ValueCells value;
-        QString full;                ///< for copying
+        QString full;  ///< for copying
         std::optional<Color> color;
         Tone tone = Tone::normal;
     };

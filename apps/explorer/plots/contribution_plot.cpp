@@ -40,7 +40,8 @@ PathPlotRow alpha() {
 
 }  // namespace
 
-ContributionPlot::ContributionPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
+ContributionPlot::ContributionPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme,
+                                   QWidget* parent)
     : PathPlot(dataset, selection, theme,
                {channel(tr("red"), PathQuantity::red, &ThemeColors::red),
                 channel(tr("green"), PathQuantity::green, &ThemeColors::green),

@@ -166,7 +166,8 @@ void MarginalHistogram::mouseMoveEvent(QMouseEvent* event) {
     }
     if (bar < 0) return QToolTip::hideText();
     const auto i = std::size_t(bar);
-    const QString from = toQString(analysis::formatNumber(all_.lower(i))), to = toQString(analysis::formatNumber(all_.upper(i)));
+    const QString from = toQString(analysis::formatNumber(all_.lower(i))),
+                  to = toQString(analysis::formatNumber(all_.upper(i)));
     const QString range = integral_ && all_.upper(i) - all_.lower(i) == 1
                               ? QString::number(std::round((all_.lower(i) + all_.upper(i)) / 2))
                               : tr("%1 to %2").arg(from, to);

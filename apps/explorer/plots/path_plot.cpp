@@ -39,10 +39,15 @@ QToolButton* barButton(const QString& text, const QString& tip) {
 
 PathPlot::PathPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme, std::vector<PathPlotRow> rows,
                    QWidget* parent)
-    : QWidget(parent), dataset_(dataset), selection_(selection), theme_(theme), area_(new QWidget),
+    : QWidget(parent),
+      dataset_(dataset),
+      selection_(selection),
+      theme_(theme),
+      area_(new QWidget),
       logButton_(barButton(tr("Log"), tr("Logarithmic values (L)"))),
       resetButton_(barButton(tr("Reset zoom"), tr("Show all paths again (double click, Home)"))),
-      summary_(new QLabel), overlay_(new StateOverlay(theme, area_)),
+      summary_(new QLabel),
+      overlay_(new StateOverlay(theme, area_)),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
                             if (parts & client::DatasetPart::currentTrace) reload();
@@ -192,18 +197,22 @@ void PathPlot::resetZoom() {
 
 void PathPlot::updateState() {
     const PathSet& paths = dataset_.paths();
-    const bool anything = std::any_of(rows_.begin(), rows_.end(), [](const auto& row) { return row->series.size() > 0; });
-    resetButton_->setEnabled(std::any_of(rows_.begin(), rows_.end(), [](const auto& row) { return row->plot->isZoomed(); }));
+    const bool anything =
+        std::any_of(rows_.begin(), rows_.end(), [](const auto& row) { return row->series.size() > 0; });
+    resetButton_->setEnabled(
+        std::any_of(rows_.begin(), rows_.end(), [](const auto& row) { return row->plot->isZoomed(); }));
     if (paths.empty()) {
         const bool traced = !dataset_.current().empty();
-        overlay_->showEmpty(traced ? tr("No paths") : tr("Paths of a pixel"),
-                            traced ? tr("The renderer recorded no path for this pixel") : tr("Click a pixel in the image"));
+        overlay_->showEmpty(
+            traced ? tr("No paths") : tr("Paths of a pixel"),
+            traced ? tr("The renderer recorded no path for this pixel") : tr("Click a pixel in the image"));
         summary_->clear();
         return;
     }
     if (!anything) {
-        overlay_->showEmpty(tr("No final estimates"), tr("The renderer recorded no final estimate for the %1 paths of this pixel")
-                                                          .arg(grouped(paths.pathCount())));
+        overlay_->showEmpty(tr("No final estimates"),
+                            tr("The renderer recorded no final estimate for the %1 paths of this pixel")
+                                .arg(grouped(paths.pathCount())));
     } else {
         overlay_->clear();
     }
@@ -258,7 +267,8 @@ QString PathPlot::describe(const Row& row, std::uint32_t point) const {
     if (severalPixels(paths)) text += QLatin1Char(' ') + toQString(analysis::formatPixel(paths.pixel(path)));
     const auto valueOf = [](const Row& of, std::uint32_t i) {
         const double value = of.series.values[i];
-        return toQString(of.spec.axis.integral ? analysis::formatInteger(std::int64_t(value)) : analysis::formatNumber(value));
+        return toQString(of.spec.axis.integral ? analysis::formatInteger(std::int64_t(value))
+                                               : analysis::formatNumber(value));
     };
     for (const auto& other : rows_)
         if (const auto there = pointOf(*other, path); there && other->shown)
@@ -319,8 +329,11 @@ QString PathPlot::csv() const {
         if (row->shown) text += QLatin1Char(',') + row->spec.axis.quantity;
     text += QLatin1Char('\n');
     for (Index path = 0; path < paths.pathCount(); ++path) {
-        text += QStringLiteral("%1,%2,%3,%4").arg(paths.pixel(path).x).arg(paths.pixel(path).y)
-                    .arg(paths.sample(path)).arg(paths.part(path));
+        text += QStringLiteral("%1,%2,%3,%4")
+                    .arg(paths.pixel(path).x)
+                    .arg(paths.pixel(path).y)
+                    .arg(paths.sample(path))
+                    .arg(paths.part(path));
         for (const auto& row : rows_) {
             if (!row->shown) continue;
             text += QLatin1Char(',');

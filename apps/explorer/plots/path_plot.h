@@ -62,7 +62,7 @@ class PathPlot : public QWidget {
     void addRow(PathPlotRow spec);
     void connectRow(Row& row);
     void reload();
-    void select();            ///< marks what the Selection says
+    void select();  ///< marks what the Selection says
     void hover();
     void updateState();
     void placeRows();

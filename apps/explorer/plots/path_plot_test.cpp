@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <qwt_plot.h>
 #include <QApplication>
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QWheelEvent>
 #include <limits>
-#include <qwt_plot.h>
 #include <set>
 
 #include "base/path_ids.h"
@@ -61,7 +61,8 @@ struct Bench {
     }
     void wheel(std::size_t row, QPoint at, int notches, Qt::KeyboardModifiers modifiers = {}) {
         QWidget* canvas = plot.row(row).canvas();
-        QWheelEvent event(at, canvas->mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
+        QWheelEvent event(at, canvas->mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, modifiers,
+                          Qt::NoScrollPhase, false);
         QApplication::sendEvent(canvas, &event);
     }
     PathId id(std::uint32_t path) { return pathId(dataset.paths(), path); }
@@ -77,7 +78,8 @@ struct Bench {
 /// Values far apart, so that no two points overlap.
 PathSet sparse(std::size_t count = 20) {
     std::vector<Color> estimates;
-    for (std::size_t i = 0; i < count; ++i) estimates.emplace_back(float(i % 5) + 1, float(i % 3) + 1, float(i % 7) + 1);
+    for (std::size_t i = 0; i < count; ++i)
+        estimates.emplace_back(float(i % 5) + 1, float(i % 3) + 1, float(i % 7) + 1);
     return pathsWithEstimates(estimates, {1, 2, 5});
 }
 
@@ -185,7 +187,8 @@ TEST(PathPlot, QwtsScalesAgreeWithTheFrame) {
             for (const analysis::Tick& tick : content.yTicks)
                 EXPECT_NEAR(plot.plot()->transform(QwtPlot::yLeft, tick.value), content.frame.y().pixel(tick.value), 1);
             for (const analysis::Tick& tick : content.xTicks)
-                EXPECT_NEAR(plot.plot()->transform(QwtPlot::xBottom, tick.value), content.frame.x().pixel(tick.value), 1);
+                EXPECT_NEAR(plot.plot()->transform(QwtPlot::xBottom, tick.value), content.frame.x().pixel(tick.value),
+                            1);
         }
     }
 }
@@ -252,14 +255,16 @@ TEST(PathPlot, HoverTellsTheOthersAndShowsValues) {
 TEST(PathPlot, PointsOnTopOfEachOtherAreCounted) {
     // Three pixels: the same sample index and depth in each.
     std::vector<PathSet> sets;
-    for (std::uint32_t x = 0; x < 3; ++x) sets.push_back(pathsWithEstimates(std::vector<Color>(4, Color(1)), {2}, {x, 0}));
+    for (std::uint32_t x = 0; x < 3; ++x)
+        sets.push_back(pathsWithEstimates(std::vector<Color>(4, Color(1)), {2}, {x, 0}));
     Bench<DepthPlot> bench(PathSet::merged(sets));
     ASSERT_EQ(bench.plot.row(0).content().xs.size(), 12u);
     const QPoint at = bench.at(0, 1);
     QWidget* canvas = bench.plot.row(0).canvas();
     QMouseEvent move(QEvent::MouseMove, at, canvas->mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
     QApplication::sendEvent(canvas, &move);
-    EXPECT_TRUE(bench.plot.row(0).hoverText().endsWith("and 2 more here")) << bench.plot.row(0).hoverText().toStdString();
+    EXPECT_TRUE(bench.plot.row(0).hoverText().endsWith("and 2 more here"))
+        << bench.plot.row(0).hoverText().toStdString();
 }
 
 TEST(PathPlot, EveryPathIsInOneBarOrEdgeRow) {
@@ -302,13 +307,21 @@ class OddValues : public testing::TestWithParam<int> {
   protected:
     static PathSet paths(int which) {
         switch (which) {
-            case 0: return {};
-            case 1: return pathsWithEstimates({Color(0.5f)});
-            case 2: return pathsWithEstimates(std::vector<Color>(30, Color(kNaN, kNaN, kNaN)));
-            case 3: return pathsWithEstimates(std::vector<Color>(30, Color(0)));
-            case 4: return fakePaths({.samples = 10, .estimates = false});
-            case 5: return pathsWithEstimates({Color(kInfinity), Color(-kInfinity), Color(1e38f), Color(-1e38f), Color(1e-38f)});
-            default: return fakePaths({.samples = 120000, .vertices = 1});
+            case 0:
+                return {};
+            case 1:
+                return pathsWithEstimates({Color(0.5f)});
+            case 2:
+                return pathsWithEstimates(std::vector<Color>(30, Color(kNaN, kNaN, kNaN)));
+            case 3:
+                return pathsWithEstimates(std::vector<Color>(30, Color(0)));
+            case 4:
+                return fakePaths({.samples = 10, .estimates = false});
+            case 5:
+                return pathsWithEstimates(
+                    {Color(kInfinity), Color(-kInfinity), Color(1e38f), Color(-1e38f), Color(1e-38f)});
+            default:
+                return fakePaths({.samples = 120000, .vertices = 1});
         }
     }
 };

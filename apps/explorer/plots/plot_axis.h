@@ -1,8 +1,8 @@
 #pragma once
 
+#include <qwt_scale_draw.h>
 #include <QColor>
 #include <QString>
-#include <qwt_scale_draw.h>
 #include <string>
 #include <vector>
 

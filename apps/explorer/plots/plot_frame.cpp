@@ -34,10 +34,14 @@ PlotRow PlotFrame::row(double y) const {
 
 double PlotFrame::center(PlotRow row) const {
     switch (row) {
-        case PlotRow::above: return kRowHeight / 2 + 1;
-        case PlotRow::nan: return canvas_.height() - kRowHeight / 2 - 1;
-        case PlotRow::below: return canvas_.height() - kRowHeight / 2 - 1 - (rows_.nan ? kRowHeight : 0);
-        case PlotRow::inside: break;
+        case PlotRow::above:
+            return kRowHeight / 2 + 1;
+        case PlotRow::nan:
+            return canvas_.height() - kRowHeight / 2 - 1;
+        case PlotRow::below:
+            return canvas_.height() - kRowHeight / 2 - 1 - (rows_.nan ? kRowHeight : 0);
+        case PlotRow::inside:
+            break;
     }
     return (y_.start + y_.end) / 2;
 }
@@ -52,8 +56,8 @@ ValueRange PlotFrame::spannedX() const { return {x_.value(0), x_.value(canvas_.w
 
 ValueRange PlotFrame::spannedY() const { return {y_.value(canvas_.height()), y_.value(0), y_.range.log}; }
 
-std::optional<std::uint32_t> PlotFrame::nearest(std::span<const double> xs, std::span<const double> ys, QPointF position,
-                                                double radius) const {
+std::optional<std::uint32_t> PlotFrame::nearest(std::span<const double> xs, std::span<const double> ys,
+                                                QPointF position, double radius) const {
     std::optional<std::uint32_t> best;
     double bestSquared = radius * radius;
     for (std::size_t i = 0; i < xs.size(); ++i) {
@@ -68,7 +72,8 @@ std::optional<std::uint32_t> PlotFrame::nearest(std::span<const double> xs, std:
     return best;
 }
 
-std::vector<std::uint32_t> PlotFrame::inside(std::span<const double> xs, std::span<const double> ys, QRectF rectangle) const {
+std::vector<std::uint32_t> PlotFrame::inside(std::span<const double> xs, std::span<const double> ys,
+                                             QRectF rectangle) const {
     const QRectF r = rectangle.normalized();
     std::vector<std::uint32_t> points;
     for (std::size_t i = 0; i < xs.size(); ++i) {
@@ -80,7 +85,8 @@ std::vector<std::uint32_t> PlotFrame::inside(std::span<const double> xs, std::sp
 }
 
 ValueRange zoomed(const ValueRange& range, double position, double factor) {
-    return ValueRange{range.value(position - position * factor), range.value(position + (1 - position) * factor), range.log};
+    return ValueRange{range.value(position - position * factor), range.value(position + (1 - position) * factor),
+                      range.log};
 }
 
 ValueRange moved(const ValueRange& range, double part) {

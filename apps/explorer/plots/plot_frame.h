@@ -35,7 +35,9 @@ class PlotFrame {
 
     PlotFrame() = default;
     /// \param rows  which edge rows there are room for
-    struct Rows { bool above = false, below = false, nan = false; };
+    struct Rows {
+        bool above = false, below = false, nan = false;
+    };
     PlotFrame(QSizeF canvas, const analysis::ValueRange& x, const analysis::ValueRange& y, Rows rows);
     /// The rows that these values need.
     static Rows rowsFor(std::span<const double> ys, const analysis::ValueRange& y);
@@ -55,7 +57,8 @@ class PlotFrame {
     analysis::ValueRange spannedX() const;
     analysis::ValueRange spannedY() const;
 
-    /// The point drawn nearest to a position, within a radius in pixels. Of equally near ones the last, which is on top.
+    /// The point drawn nearest to a position, within a radius in pixels. Of equally near ones the last, which is on
+    /// top.
     std::optional<std::uint32_t> nearest(std::span<const double> xs, std::span<const double> ys, QPointF position,
                                          double radius) const;
     /// Points drawn inside a rectangle, its edges included; ascending.

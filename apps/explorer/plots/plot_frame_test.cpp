@@ -55,7 +55,8 @@ TEST(PlotFrame, NearestAndInsideAgreeWithBruteForce) {
         for (std::uint32_t i = 0; i < xs.size(); ++i) {
             const auto at = frame.place(xs[i], ys[i]);
             if (!at) continue;
-            const bool inX = (at->x() - a.x()) * (at->x() - b.x()) <= 0, inY = (at->y() - a.y()) * (at->y() - b.y()) <= 0;
+            const bool inX = (at->x() - a.x()) * (at->x() - b.x()) <= 0,
+                       inY = (at->y() - a.y()) * (at->y() - b.y()) <= 0;
             if (inX && inY) expected.push_back(i);
             const double d = std::hypot(at->x() - a.x(), at->y() - a.y());
             if (d <= distance) distance = d, closest = i;

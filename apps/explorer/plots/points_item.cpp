@@ -143,12 +143,18 @@ void PointsItem::drawLayer(QPainter& painter) const {
     const PlotFrame& frame = content_.frame;
     const double ratio = painter.device()->devicePixelRatioF();
     const bool dimmed = !content_.selected.empty();
-    const bool fresh = layer_.version == content_.version && layer_.x == frame.x().range && layer_.y == frame.y().range &&
-                       layer_.canvas == frame.canvas() && layer_.color == content_.color && layer_.dimmed == dimmed &&
+    const bool fresh = layer_.version == content_.version && layer_.x == frame.x().range &&
+                       layer_.y == frame.y().range && layer_.canvas == frame.canvas() &&
+                       layer_.color == content_.color && layer_.dimmed == dimmed &&
                        layer_.image.devicePixelRatioF() == (content_.dense() ? 1 : ratio) && !layer_.image.isNull();
     if (!fresh)
-        layer_ = {content_.dense() ? densityImage(dimmed) : dotsImage(dimmed, ratio), content_.version, frame.x().range,
-                  frame.y().range, frame.canvas(), content_.color, dimmed};
+        layer_ = {content_.dense() ? densityImage(dimmed) : dotsImage(dimmed, ratio),
+                  content_.version,
+                  frame.x().range,
+                  frame.y().range,
+                  frame.canvas(),
+                  content_.color,
+                  dimmed};
     if (content_.dense()) {
         painter.drawImage(QRectF(QPointF(frame.x().start, frame.y().end), QPointF(frame.x().end, frame.y().start)),
                           layer_.image);
@@ -158,7 +164,8 @@ void PointsItem::drawLayer(QPainter& painter) const {
 }
 
 QImage PointsItem::dotsImage(bool dimmed, double ratio) const {
-    QImage image((content_.frame.canvas() * ratio).toSize().expandedTo(QSize(1, 1)), QImage::Format_ARGB32_Premultiplied);
+    QImage image((content_.frame.canvas() * ratio).toSize().expandedTo(QSize(1, 1)),
+                 QImage::Format_ARGB32_Premultiplied);
     image.setDevicePixelRatio(ratio);
     image.fill(Qt::transparent);
     QPainter painter(&image);

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <qwt_plot_item.h>
 #include <QImage>
 #include <QPixmap>
 #include <optional>
-#include <qwt_plot_item.h>
 #include <vector>
 
 #include "plots/plot_frame.h"
@@ -14,14 +14,14 @@ class Theme;
 
 /// What a scatter plot shows, and how it lies on the canvas.
 struct ScatterContent {
-    std::vector<double> xs, ys;            ///< equally many
-    std::vector<std::uint32_t> selected;   ///< points, ascending
+    std::vector<double> xs, ys;           ///< equally many
+    std::vector<std::uint32_t> selected;  ///< points, ascending
     std::optional<std::uint32_t> current;
     QColor color;
     PlotFrame frame;
     std::vector<analysis::Tick> xTicks, yTicks;
-    std::optional<double> mean;            ///< of ys, where it means something
-    std::uint64_t version = 0;             ///< counts changes of xs and ys
+    std::optional<double> mean;  ///< of ys, where it means something
+    std::uint64_t version = 0;   ///< counts changes of xs and ys
 
     bool dense() const { return xs.size() > analysis::kDensityThreshold; }
     bool isSelected(std::uint32_t point) const;

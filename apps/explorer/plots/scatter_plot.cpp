@@ -1,11 +1,11 @@
 #include "plots/scatter_plot.h"
 
-#include <QHBoxLayout>
-#include <QLocale>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_layout.h>
 #include <qwt_scale_widget.h>
+#include <QHBoxLayout>
+#include <QLocale>
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +42,9 @@ std::vector<analysis::Tick> ticksOf(const ValueRange& range, bool integral, doub
 }  // namespace
 
 ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
-    : QWidget(parent), theme_(theme), plot_(new QwtPlot(this)),
+    : QWidget(parent),
+      theme_(theme),
+      plot_(new QwtPlot(this)),
       histogram_(new MarginalHistogram(content_, theme, this)),
       overlay_(new PlotOverlay(theme, plot_->canvas())) {
     plot_->setAutoReplot(false);
@@ -119,7 +121,8 @@ void ScatterPlot::setPoints(std::vector<double> xs, std::vector<double> ys) {
     hoveredHere_ = false;
     findRanges();
     const auto left = [](const std::optional<ValueRange>& zoom, const std::vector<double>& values) {
-        return !zoom || std::any_of(values.begin(), values.end(), [&](double v) { return v >= zoom->min && v <= zoom->max; });
+        return !zoom ||
+               std::any_of(values.begin(), values.end(), [&](double v) { return v >= zoom->min && v <= zoom->max; });
     };
     if (!left(xZoom_, content_.xs)) xZoom_.reset();
     if (!left(yZoom_, content_.ys)) yZoom_.reset();

@@ -17,10 +17,10 @@ class PlotOverlay;
 
 /// What an axis shows.
 struct PlotAxis {
-    QString quantity;         ///< "luminance"
-    QString unit;             ///< "W/(sr m²)" or empty
-    bool integral = false;    ///< whole numbers: no tick between them
-    bool includeZero = false; ///< its range begins at 0, as radiance does
+    QString quantity;          ///< "luminance"
+    QString unit;              ///< "W/(sr m²)" or empty
+    bool integral = false;     ///< whole numbers: no tick between them
+    bool includeZero = false;  ///< its range begins at 0, as radiance does
     QString title() const { return unit.isEmpty() ? quantity : quantity + QStringLiteral(", ") + unit; }
 };
 
@@ -95,9 +95,9 @@ class ScatterPlot : public QWidget {
   private:
     enum class Drag { none, pressed, rectangle, moving };
     void restyle();
-    void findRanges();          ///< default ranges of the points
-    void layoutFrame();         ///< frame, ticks and axes for the current ranges and size
-    void refresh();             ///< draws points and histogram again
+    void findRanges();   ///< default ranges of the points
+    void layoutFrame();  ///< frame, ticks and axes for the current ranges and size
+    void refresh();      ///< draws points and histogram again
     bool press(QMouseEvent& event);
     bool move(QMouseEvent& event);
     bool release(QMouseEvent& event);

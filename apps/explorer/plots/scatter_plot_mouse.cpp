@@ -1,5 +1,7 @@
 // The hands of a ScatterPlot: mouse and keys.
 
+#include <qwt_plot.h>
+#include <qwt_scale_widget.h>
 #include <QApplication>
 #include <QContextMenuEvent>
 #include <QKeyEvent>
@@ -7,8 +9,6 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
-#include <qwt_plot.h>
-#include <qwt_scale_widget.h>
 
 #include "base/qt_compat.h"
 #include "plots/plot_overlay.h"
@@ -41,9 +41,12 @@ bool ScatterPlot::eventFilter(QObject* watched, QEvent* event) {
         case QEvent::Resize:
             if (onCanvas) layoutFrame();
             break;
-        case QEvent::MouseButtonPress: return onCanvas && press(static_cast<QMouseEvent&>(*event));
-        case QEvent::MouseMove: return onCanvas && move(static_cast<QMouseEvent&>(*event));
-        case QEvent::MouseButtonRelease: return onCanvas && release(static_cast<QMouseEvent&>(*event));
+        case QEvent::MouseButtonPress:
+            return onCanvas && press(static_cast<QMouseEvent&>(*event));
+        case QEvent::MouseMove:
+            return onCanvas && move(static_cast<QMouseEvent&>(*event));
+        case QEvent::MouseButtonRelease:
+            return onCanvas && release(static_cast<QMouseEvent&>(*event));
         case QEvent::MouseButtonDblClick:
             if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) break;
             ignoreRelease_ = true;
@@ -56,7 +59,8 @@ bool ScatterPlot::eventFilter(QObject* watched, QEvent* event) {
             auto& wheel = static_cast<QWheelEvent&>(*event);
             // Alt and Shift turn the wheel sideways on some systems.
             const int delta = wheel.angleDelta().y() != 0 ? wheel.angleDelta().y() : wheel.angleDelta().x();
-            const bool onX = watched == plot_->axisWidget(QwtPlot::xBottom) || (wheel.modifiers() & Qt::ControlModifier);
+            const bool onX =
+                watched == plot_->axisWidget(QwtPlot::xBottom) || (wheel.modifiers() & Qt::ControlModifier);
             const bool onY = watched == plot_->axisWidget(QwtPlot::yLeft) || (wheel.modifiers() & Qt::ShiftModifier);
             const QPointF at = plot_->canvas()->mapFrom(static_cast<QWidget*>(watched), positionOf(wheel).toPoint());
             zoomBy(at, std::pow(kWheelStep, -delta / 120.0), !onY || onX, !onX || onY);
@@ -68,7 +72,8 @@ bool ScatterPlot::eventFilter(QObject* watched, QEvent* event) {
             emit menuRequested(menu.globalPos(), pointAt(menu.pos()));
             return true;
         }
-        default: break;
+        default:
+            break;
     }
     return QWidget::eventFilter(watched, event);
 }
@@ -179,9 +184,15 @@ bool ScatterPlot::event(QEvent* event) {
 
 void ScatterPlot::keyPressEvent(QKeyEvent* event) {
     switch (event->key()) {
-        case Qt::Key_L: emit logToggled(); break;
-        case Qt::Key_R: startRectangle(); break;
-        case Qt::Key_Home: emit zoomResetRequested(); break;
+        case Qt::Key_L:
+            emit logToggled();
+            break;
+        case Qt::Key_R:
+            startRectangle();
+            break;
+        case Qt::Key_Home:
+            emit zoomResetRequested();
+            break;
         case Qt::Key_Escape:
             if (drag_ != Drag::none || rectangleKey_) {
                 drag_ = Drag::none;
@@ -192,7 +203,9 @@ void ScatterPlot::keyPressEvent(QKeyEvent* event) {
                 emit clearRequested();
             }
             break;
-        default: QWidget::keyPressEvent(event); return;
+        default:
+            QWidget::keyPressEvent(event);
+            return;
     }
     event->accept();
 }
