@@ -63,9 +63,14 @@ Result<Trace> trace(Link& link, protocol::TraceRequest request, const TraceOptio
     request.query = options.query;
     request.budget = options.budget;
     request.locations = options.locations;
+    const std::vector<Pixel> asked = request.pixels;
+    const std::uint64_t count = asked.empty() ? request.rect.count() : asked.size();
     const auto begin = std::chrono::steady_clock::now();
     auto result = ask<protocol::TraceResult>(link, std::move(request), observer);
     if (!result) return result.error();
+    if (result->pixels.size() != count || (!asked.empty() && result->pixels != asked)) {
+        return Error{ErrorCode::protocolViolation, "The renderer answered with other pixels than those that were asked for."};
+    }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     Trace trace;
     trace.pixels = std::move(result->pixels);

@@ -25,7 +25,8 @@ struct ServerOptions {
     std::uint32_t keptImages = 4;             ///< finished renders kept for verdicts; older ones are forgotten
     std::chrono::milliseconds handshakeTimeout{10000};  ///< a stranger that stays silent for so long is sent away
     bool allowQuit = false;                   ///< whether a client's quit request ends the server
-    /// Where remarks for people go (a client came, was refused, …). Nothing is printed without it.
+    /// Where remarks for people go (a client came, was refused, …). Nothing is printed without it. Called from the
+    /// thread that starts the server, then from the server's network thread: be quick.
     std::function<void(const std::string&)> log;
 };
 
