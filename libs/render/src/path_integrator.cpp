@@ -13,6 +13,9 @@ enum Dimension : std::uint32_t { kMask, kLightChoice, kLightPoint, kLobe, kDirec
 
 constexpr float kLargestSurvival = 0.95f;  // as Mitsuba's: a path in a closed white box must end some time
 
+/// No scene needs more; a white closed box without roulette would never end, and could not be cancelled.
+constexpr int kLargestVertex = 100'000;
+
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2.4, power heuristic with
 /// exponent 2. The quotient form neither overflows nor divides infinity by infinity.
 float powerHeuristic(float pdf, float otherPdf) {
@@ -25,7 +28,7 @@ float powerHeuristic(float pdf, float otherPdf) {
 
 Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& emca) const {
     Color estimate(0.f), throughput(1.f);
-    float eta = 1.f;  // product of the relative indices of refraction: radiance is squeezed inside glass
+    float eta = 1.f;  // product of relative indices of refraction: roulette must not see radiance squeezed inside glass
     Arrival arrival{ray.origin};
     SurfaceInteraction at;
     const char* end = "";
@@ -53,7 +56,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
             sampler.setDimension(dimension + kMask);
             const float opacity = at.bsdf->opacity(at), u = sampler.next1D();
             emca.addIntersectionData("opacity", opacity);
-            if (u >= opacity) {
+            if (u >= opacity && vertex < kLargestVertex) {
                 emca.setIntersectionEvent(Event::pass, Lobe::straight, at.bsdf->name());
                 emca.setIntersectionEstimate(estimate);
                 ray.origin = offsetOrigin(at.position, at.geometricNormal, at.positionError, ray.direction);
@@ -64,10 +67,10 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
         }
 
         estimate += emittedLight(at, ray, arrival, throughput, emca);
-        if (depth == settings_.maximumDepth) {
+        if (depth == settings_.maximumDepth || vertex == kLargestVertex) {
             emca.setIntersectionEvent(at.emitter ? Event::emission : Event::absorb, Lobe::none, at.bsdf->name());
             emca.setIntersectionEstimate(estimate);
-            end = "maximum depth";
+            end = vertex == kLargestVertex ? "too many vertices" : "maximum depth";
             break;
         }
 
