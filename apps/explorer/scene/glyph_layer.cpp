@@ -39,17 +39,17 @@ std::vector<Edge> cameraGlyph(const Camera& camera, double imageAspect, float si
 
 GlyphLayer::GlyphLayer(vtkRenderer& strokes) : lines_(strokes) {}
 
-void GlyphLayer::setCamera(const std::optional<Camera>& camera, double imageAspect, float sceneDiagonal) {
+void GlyphLayer::setCamera(const std::optional<Camera>& camera, double imageAspect, float size) {
     camera_ = camera;
     imageAspect_ = imageAspect;
-    size_ = std::isfinite(sceneDiagonal) && sceneDiagonal > 0 ? 0.09f * sceneDiagonal : 0.2f;
+    size_ = std::isfinite(size) && size > 0 ? size : 0.2f;
     rebuild();
 }
 
 void GlyphLayer::apply(bool visible, const ThemeColors& colors) {
     visible_ = visible;
-    if (color_ == colors.accent && halo_ == colors.halo) return;
-    color_ = colors.accent;
+    if (color_ == colors.mutedText && halo_ == colors.halo) return;
+    color_ = colors.mutedText;   // not one of the colours that mean something
     halo_ = colors.halo;
     rebuild();
 }

@@ -18,7 +18,7 @@ std::vector<Edge> cameraGlyph(const Camera& camera, double imageAspect, float si
 class GlyphLayer {
   public:
     explicit GlyphLayer(vtkRenderer& strokes);
-    void setCamera(const std::optional<Camera>& camera, double imageAspect, float sceneDiagonal);
+    void setCamera(const std::optional<Camera>& camera, double imageAspect, float size);
     void apply(bool visible, const ThemeColors& colors);
     void prepareFrame(const ViewPose& pose, float pixelScale);
 

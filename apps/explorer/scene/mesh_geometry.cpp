@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -154,6 +155,18 @@ float srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+/// Lights that hang in or near the core belong to it; with nothing but lights they are the core.
+void addNearLights(const std::vector<BoundingBox>& lights, BoundingBox& core) {
+    const bool onlyLights = core.empty;
+    const Vec3f centre = core.centre();
+    const float reach = core.diagonal();
+    for (const BoundingBox& light : lights) {
+        if (!onlyLights && (length(light.centre() - centre) > reach || light.diagonal() > 2 * reach)) continue;
+        core.extend(light.min);
+        core.extend(light.max);
+    }
+}
+
 /// Hue of what it emits, at full brightness and a third of its saturation.
 std::array<std::uint8_t, 3> glowColor(Color emission) {
     const float peak = maxComponent(emission);
@@ -186,14 +199,25 @@ std::array<std::uint8_t, 3> clayColor(Color diffuse, std::array<std::uint8_t, 3>
 MeshGeometry makeMeshGeometry(std::span<const Mesh> meshes, std::array<std::uint8_t, 3> base,
                               const std::atomic<bool>* cancel) {
     MeshGeometry g;
+    std::vector<BoundingBox> lights;
     for (const Mesh& mesh : meshes) {
         if (cancel && *cancel) return g;
         const Welded w = weld(mesh, g.skippedTriangles);
-        for (const Vec3f& p : w.positions) g.box.extend(p);
+        BoundingBox box;
+        for (const Vec3f& p : w.positions) box.extend(p);
+        if (!box.empty) {
+            g.box.extend(box.min);
+            g.box.extend(box.max);
+        }
         if (mesh.isEmitter()) {
+            if (!box.empty) lights.push_back(box);
             append(w, glowColor(mesh.emission), g.emitters);
             appendEdges(w, g.emitterEdges);
         } else {
+            if (!box.empty) {
+                g.core.extend(box.min);
+                g.core.extend(box.max);
+            }
             append(w, clayColor(mesh.diffuse, base), g.surfaces);
             appendEdges(w, g.edges);
             if (g.edges.size() > 4 * kMaximumEdges) keepLongest(g.edges);
@@ -201,7 +225,24 @@ MeshGeometry makeMeshGeometry(std::span<const Mesh> meshes, std::array<std::uint
     }
     keepLongest(g.edges);
     keepLongest(g.emitterEdges);
+    addNearLights(lights, g.core);
     return g;
+}
+
+std::optional<float> firstHit(std::span<const Mesh> meshes, Vec3f origin, Vec3f direction) {
+    // Moeller and Trumbore 1997.
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const Mesh& mesh : meshes)
+        for (const Triangle& t : mesh.triangles) {
+            const std::size_t n = mesh.positions.size();
+            if (t[0] >= n || t[1] >= n || t[2] >= n) continue;
+            const Vec3f a = mesh.positions[t[0]], ab = mesh.positions[t[1]] - a, ac = mesh.positions[t[2]] - a;
+            const Vec3f p = cross(direction, ac), s = origin - a, q = cross(s, ab);
+            const float determinant = dot(ab, p), u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
+            const float distance = dot(ac, q) / determinant;
+            if (u >= 0 && v >= 0 && u + v <= 1 && distance > 0 && distance < nearest) nearest = distance;
+        }
+    return std::isfinite(nearest) ? std::optional(nearest) : std::nullopt;
 }
 
 }  // namespace emca::explorer

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,9 @@ struct MeshGeometry {
     ShadedTriangles emitters;      ///< what shines
     std::vector<Edge> edges;       ///< creases and borders of surfaces: they carry the form through translucency
     std::vector<Edge> emitterEdges;
-    BoundingBox box;
+    BoundingBox box;               ///< of everything
+    /// Where the scene happens: without lights far outside, as a small sun is, that would make all else tiny.
+    BoundingBox core;
     std::uint64_t skippedTriangles = 0;  ///< with an index beyond the positions, or a position that is not finite
 };
 
@@ -35,6 +38,9 @@ struct MeshGeometry {
 /// Any thread. Any input: faulty triangles are left out and counted.
 MeshGeometry makeMeshGeometry(std::span<const Mesh> meshes, std::array<std::uint8_t, 3> base,
                               const std::atomic<bool>* cancel = nullptr);
+
+/// Distance to the first surface along a ray (unit direction), by brute force: once per scene, not per frame.
+std::optional<float> firstHit(std::span<const Mesh> meshes, Vec3f origin, Vec3f direction);
 
 inline constexpr float kCreaseDegrees = 35;        ///< edges sharper than this are creases
 inline constexpr std::size_t kMaximumEdges = 40000;///< of those, the longest ones are kept

@@ -51,6 +51,24 @@ TEST(MeshGeometry, emittersAreApart) {
     EXPECT_EQ(g.skippedTriangles, 0u);
 }
 
+TEST(MeshGeometry, aFarSunIsNotTheCore) {
+    std::vector<Mesh> room = testing::roomMeshes();
+    Mesh sun = named(room, "light");
+    for (Vec3f& p : sun.positions) p += {0, 60, 20};
+    room.push_back(sun);
+    const MeshGeometry g = makeMeshGeometry(room, kClay);
+    EXPECT_GT(g.box.max.y, 50);
+    EXPECT_EQ(g.core.min, (Vec3f{-1, -1, -1}));
+    EXPECT_EQ(g.core.max, (Vec3f{1, 1, 1}));
+    EXPECT_FALSE(makeMeshGeometry(std::vector{sun}, kClay).core.empty);
+}
+
+TEST(FirstHit, nearestSurfaceAlongTheRay) {
+    const std::vector<Mesh> room = testing::roomMeshes();
+    EXPECT_NEAR(firstHit(room, {0, 0.6f, 4}, {0, 0, -1}).value_or(0), 5, 1e-5f);
+    EXPECT_FALSE(firstHit(room, {0, 0, 4}, {0, 0, 1}));
+}
+
 TEST(MeshGeometry, faultyTrianglesAreCountedNotDrawn) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {std::nanf(""), 0, 0}, {INFINITY, 0, 0}};

@@ -109,8 +109,8 @@ uniform vec4 clayMode;   // back opacity, glow, opaque, orthographic
         vtkShaderProgram::Substitute(source, "//VTK::Light::Impl", R"(
   vec3 toEye = clayMode.w > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);
   float facing = clamp(abs(dot(normalVCVSOutput, toEye)), 0.0, 1.0);
-  float wrapped = 0.5 + 0.5 * dot(normalVCVSOutput, normalize(vec3(-0.35, 0.55, 0.9)));
-  vec3 shade = diffuseColor * (0.30 + 0.78 * wrapped * wrapped);
+  float wrapped = 0.5 + 0.5 * dot(normalVCVSOutput, normalize(vec3(-0.35, 0.40, 0.95)));
+  vec3 shade = diffuseColor * (0.40 + 0.68 * wrapped * wrapped);
   float shell = clayMode.z > 0.5 ? 1.0 : mix(0.72, 2.4, pow(1.0 - facing, 3.0));
   if (!gl_FrontFacing) {
     shade = mix(shade, clayBack.rgb, clayBack.a);

@@ -38,6 +38,7 @@ class MeshLayer {
     bool hasStandIn() const { return meshes_ && meshes_->standIn; }
     std::uint64_t skippedTriangles() const { return meshes_ ? meshes_->geometry.skippedTriangles : 0; }
     BoundingBox box() const { return meshes_ ? meshes_->geometry.box : BoundingBox(); }
+    BoundingBox core() const { return meshes_ ? meshes_->geometry.core : BoundingBox(); }
     /// Widths and fading for the coming frame.
     void prepareFrame(float pixelScale, float fadeNear, float fadeFar);
 

@@ -192,7 +192,8 @@ void PathLayer::updateDimming() {
     }
     // Dots lie on surfaces, half of each inside: bring them forward, and what is selected more.
     // Through translucent surfaces they are seen whatever line crosses them.
-    current_.look().pull = 0.001f;
+    current_.look().pull = 0.005f;   // over next-event rays to the same light
+    selectedNextEvents_.look().pull = 0.002f;   // their ends lie on lights
     for (StrokeLayer* layer : {&marks_, &hover_}) {
         layer->look().pull = 0.02f;
         layer->look().onTop = options_.surfaceOpacity < 0.995f;

@@ -8,7 +8,6 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSlider>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -19,18 +18,9 @@ namespace emca::explorer {
 
 SceneOptionsPanel::SceneOptionsPanel(SceneView& view, Theme& theme, QWidget* parent)
     : QWidget(parent), view_(view), theme_(theme) {
-    auto* outer = new QVBoxLayout(this);
-    outer->setContentsMargins(0, 0, 0, 0);
-    auto* scroll = new QScrollArea;
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto* content = new QWidget;
-    column_ = new QVBoxLayout(content);
+    column_ = new QVBoxLayout(this);
     column_->setContentsMargins(Spacing::medium, Spacing::small, Spacing::medium, Spacing::medium);
     column_->setSpacing(Spacing::small);
-    scroll->setWidget(content);
-    outer->addWidget(scroll);
 
     auto* surfaces = section("Surfaces");
     addSlider(surfaces, "Opacity", 0, 1, &SceneOptions::surfaceOpacity, "%", "How much the surfaces hide what is behind them");

@@ -13,7 +13,7 @@ class QVBoxLayout;
 
 namespace emca::explorer {
 
-/// Everything that can be changed in a SceneView, for a dock. Shows the view's options whoever changed them.
+/// Everything that can be changed in a SceneView, for a dock (which scrolls it). Shows the view's options whoever changed them.
 class SceneOptionsPanel : public QWidget {
     Q_OBJECT
   public:

@@ -101,12 +101,12 @@ Vec3d SceneView::Impl::pivot() const {
 
 ViewPose SceneView::Impl::homePose() const {
     const double aspect = viewport().aspect();
-    ViewPose pose = dataset.camera() ? poseOfCamera(*dataset.camera(), imageAspect(), aspect, box()) : poseOfBox(box(), aspect);
+    ViewPose pose = dataset.camera() ? poseOfCamera(*dataset.camera(), imageAspect(), aspect, box(), focusDistance) : poseOfBox(box(), aspect);
     pose.orthographic = options.orthographic;
     return pose;
 }
 
-BoundingBox SceneView::Impl::box() const { return meshes && !meshes->box().empty ? meshes->box() : pathBox; }
+BoundingBox SceneView::Impl::box() const { return meshes && !meshes->core().empty ? meshes->core() : pathBox; }
 
 /// The axis of the world that is nearest to up in the image: the camera's own is tilted where it looks down.
 Vec3d SceneView::Impl::upAxis() const {
@@ -146,8 +146,9 @@ void SceneView::Impl::setCoarse(bool coarse) {
 
 void SceneView::Impl::prepareFrame() {
     const double depth = dot(extentCentre - driver.pose().position, driver.pose().direction());
-    const auto fadeNear = static_cast<float>(std::max(0.0, depth - 0.35 * extentRadius));
-    const auto fadeFar = static_cast<float>(std::max(depth, 0.0) + 1.3 * extentRadius);
+    const double reach = 1.4 * double(domeRadius(box()));
+    const auto fadeNear = static_cast<float>(std::max(0.0, depth - 0.35 * reach));
+    const auto fadeFar = static_cast<float>(std::max(depth, 0.0) + 1.3 * reach);
     const float scale = canvas->pixelScale();
     meshes->prepareFrame(scale, fadeNear, fadeFar);
     pathLayer->prepareFrame(scale, fadeNear, fadeFar);
@@ -162,12 +163,25 @@ void SceneView::Impl::datasetChanged(std::uint32_t parts) {
     }
     if (parts & (Part::meshes | Part::camera | Part::info)) {
         if (parts & Part::meshes) loadMeshes();
-        if (glyphs) glyphs->setCamera(dataset.camera(), imageAspect(), box().diagonal());
+        if (parts & (Part::meshes | Part::camera)) {
+            const auto scene = dataset.meshes();
+            focusDistance = scene && dataset.camera()
+                                ? double(firstHit(*scene, dataset.camera()->position, dataset.camera()->direction).value_or(0)) : 0;
+        }
+        updateGlyph();
         if (!moved()) goHome(true);
     }
     if (parts & (Part::currentTrace | Part::meshes | Part::camera)) rebuildPaths();
     updateState();
     updateOverlay();
+}
+
+void SceneView::Impl::updateGlyph() {
+    if (!glyphs) return;
+    // In proportion to the scene, yet never so large that it reaches what the camera looks at.
+    float size = 0.06f * box().diagonal();
+    if (focusDistance > 0) size = std::min(size, 0.15f * static_cast<float>(focusDistance));
+    glyphs->setCamera(dataset.camera(), imageAspect(), size);
 }
 
 void SceneView::Impl::loadMeshes() { loader.load(dataset.meshes(), theme.colors().mesh, options.ownColors); }
@@ -180,7 +194,7 @@ void SceneView::Impl::meshesReady(const std::shared_ptr<PreparedMeshes>& prepare
     const BoundingBox now = meshes->box();
     const bool sameScene = !now.empty && !lastBox.empty && now.min == lastBox.min && now.max == lastBox.max;
     if (!now.empty) lastBox = now;
-    glyphs->setCamera(dataset.camera(), imageAspect(), box().diagonal());
+    updateGlyph();
     rebuildPaths();
     applyOptions();
     if (wasHome || (!now.empty && !sameScene)) goHome(true);
@@ -191,7 +205,7 @@ void SceneView::Impl::rebuildPaths() {
     paths = dataset.paths();
     const auto scene = dataset.meshes();
     geometry = makePathGeometry(paths, dataset.camera(), scene ? std::span<const Mesh>(*scene) : std::span<const Mesh>(),
-                                meshes ? meshes->box() : BoundingBox());
+                                meshes ? meshes->core() : BoundingBox());
     pathBox = {};
     for (const Vec3f& p : geometry.points)
         if (isFinite(p)) pathBox.extend(p);
@@ -212,7 +226,9 @@ void SceneView::Impl::updateExtent() {
     for (const analysis::Segment& s : geometry.segments) radius = std::max(radius, length(s.start - centre));
     extentCentre = {centre.x, centre.y, centre.z};
     extentRadius = std::min(double(radius), 12.0 * double(domeRadius(all)));
-    driver.setStep(0.02 * double(domeRadius(all)));
+    if (meshes && !meshes->box().empty)
+        extentRadius = std::max(extentRadius, double(length(meshes->box().centre() - centre)) + double(meshes->box().diagonal()) / 2);
+    driver.setStep(0.02 * std::min(double(domeRadius(all)), focusDistance > 0 ? 1.5 * focusDistance : 1e30));
     if (canvas) canvas->setExtent(extentCentre, extentRadius);
 }
 
@@ -244,9 +260,22 @@ void SceneView::Impl::selectionChanged(std::uint32_t parts, bool fly) {
     updateOverlay();
 }
 
-void SceneView::Impl::showPath(Index path, std::optional<Index> vertex, bool always) {
+/// What a flight to a path keeps in view: its vertices. The environment and lights far outside the scene are directions
+/// rather than places: with them in view, everything else would be a dot. The selected vertex counts wherever it is.
+std::vector<Vec3f> SceneView::Impl::contextOf(Index path, std::optional<Index> vertex) const {
+    const BoundingBox scene = box();
+    const float reach = 1.2f * domeRadius(scene);
+    std::vector<Vec3f> points;
     const IndexRange range = paths.vertices(path);
-    const auto points = std::span<const Vec3f>(geometry.points).subspan(range.first, range.size());
+    for (Index v = range.first; v < range.last; ++v) {
+        const Vec3f p = geometry.points[v];
+        if (v == vertex || (!paths.isEnvironment(v) && length(p - scene.centre()) < reach)) points.push_back(p);
+    }
+    return points;
+}
+
+void SceneView::Impl::showPath(Index path, std::optional<Index> vertex, bool always) {
+    const std::vector<Vec3f> points = contextOf(path, vertex);
     const std::optional<Vec3f> interest = vertex ? std::optional(geometry.points[*vertex]) : std::nullopt;
     const ViewPose from = driver.target();
     driver.flyTo(always ? framed(from, viewport(), points, kMargin, interest)
@@ -345,8 +374,7 @@ void SceneView::focusSelection() {
     if (s.vertex && isFinite(impl_->geometry.points[*s.vertex])) return impl_->closeUp(*s.vertex);
     std::vector<Vec3f> points;
     for (const Index path : s.paths)
-        for (Index v = impl_->paths.vertices(path).first; v < impl_->paths.vertices(path).last; ++v)
-            points.push_back(impl_->geometry.points[v]);
+        for (const Vec3f& p : impl_->contextOf(path, std::nullopt)) points.push_back(p);
     if (points.empty()) {
         const BoundingBox box = impl_->box();
         if (box.empty) return;

@@ -40,7 +40,8 @@ class SceneView::Impl {
     void meshesReady(const std::shared_ptr<PreparedMeshes>& prepared);
     void rebuildPaths();
     ShownSelection resolve() const;
-    BoundingBox box() const;
+    BoundingBox box() const;          ///< where the scene happens, without far lights
+    void updateGlyph();
     double imageAspect() const;
 
     // Camera.
@@ -53,6 +54,7 @@ class SceneView::Impl {
     bool moved() const { return !(driver.target() == home); }
     void poseMoved(const ViewPose& pose);
     void updateExtent();
+    std::vector<Vec3f> contextOf(Index path, std::optional<Index> vertex) const;
     void showPath(Index path, std::optional<Index> vertex, bool always);
     void closeUp(Index vertex);
     void setCoarse(bool coarse);
@@ -99,6 +101,7 @@ class SceneView::Impl {
     double extentRadius = 1;
     ViewPose home;                        ///< the renderer's camera; the view is there until somebody moves it
     BoundingBox lastBox;                  ///< of the scene before: one that comes again keeps the view
+    double focusDistance = 0;             ///< to what the renderer's camera looks at; 0 if nothing
     std::optional<double> loadingFraction;
     QString loadError;
     bool isCoarse = false;

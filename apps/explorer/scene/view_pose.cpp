@@ -101,7 +101,7 @@ std::optional<ScreenPoint> Projection::project(Vec3d p) const {
     return std::isfinite(s.x) && std::isfinite(s.y) ? std::optional(s) : std::nullopt;
 }
 
-ViewPose poseOfCamera(const Camera& camera, double imageAspect, double viewAspect, const BoundingBox& box) {
+ViewPose poseOfCamera(const Camera& camera, double imageAspect, double viewAspect, const BoundingBox& box, double focus) {
     ViewPose pose;
     pose.position = widened(camera.position);
     const Vec3d d = normalize(widened(camera.direction));
@@ -113,8 +113,8 @@ ViewPose poseOfCamera(const Camera& camera, double imageAspect, double viewAspec
         const double t = std::tan(pose.verticalFieldOfView * kDegree / 2) * imageAspect / viewAspect;
         pose.verticalFieldOfView = 2 * std::atan(t) / kDegree;
     }
-    double distance = double(camera.focusDistance);
-    if (!box.empty) {
+    double distance = focus > 0 ? focus : double(camera.focusDistance);
+    if (!box.empty && !(focus > 0)) {
         const double size = std::max(double(box.diagonal()), 1e-6);
         distance = std::max(dot(widened(box.centre()) - pose.position, d), 0.1 * size);
     }

@@ -58,9 +58,9 @@ class Projection {
 };
 
 /// The renderer's camera. The whole image is visible: the field of view opens where the view is narrower than the
-/// image (`imageAspect` = width / height; 0 if unknown). The focus lies in the scene, at the middle of its box as far as
-/// that is in front. Spherical cameras get 60 degrees.
-ViewPose poseOfCamera(const Camera& camera, double imageAspect, double viewAspect, const BoundingBox& box);
+/// image (`imageAspect` = width / height; 0 if unknown). The focus is at the distance `focus` if that is positive, else at
+/// the middle of the scene's box as far as that is in front. Spherical cameras get 60 degrees.
+ViewPose poseOfCamera(const Camera& camera, double imageAspect, double viewAspect, const BoundingBox& box, double focus = 0);
 
 /// Looks at the whole box from a corner, for a scene without a camera.
 ViewPose poseOfBox(const BoundingBox& box, double viewAspect);
