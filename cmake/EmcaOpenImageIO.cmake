@@ -1,3 +1,4 @@
+# Finds OpenImageIO for us and for those who link emca::imageio.
 find_package(OpenImageIO QUIET)
 # Debian's package names the include folder of OpenCV without depending on it, and CMake refuses folders that do not exist.
 foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
@@ -9,3 +10,6 @@ foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
         list(APPEND existing "${folder}")
       endif()
     endforeach()
+    set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing}")
+  endif()
+endforeach()
