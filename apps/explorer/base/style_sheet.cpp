@@ -61,6 +61,8 @@ QSpinBox::up-button, QDoubleSpinBox::up-button, QSpinBox::down-button, QDoubleSp
 QComboBox { background: {raised}; border: 1px solid {border}; border-radius: 4px; padding: 2px 8px; min-height: 18px; }
 QComboBox:hover { background: {hoverSurface}; }
 QComboBox:focus { border-color: {accent}; }
+QComboBox::drop-down { border: none; width: 20px; }
+QComboBox::down-arrow { image: url(:/emca/symbols/arrow-down.svg); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: {raised}; border: 1px solid {border}; selection-background-color: {selectedRow};
     selection-color: {text}; outline: none; }
 
@@ -81,6 +83,15 @@ QScrollBar::handle:horizontal { min-width: 28px; }
 QScrollBar::handle:hover { background: {mutedText}; }
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
+
+QCheckBox, QRadioButton { spacing: 7px; }
+QCheckBox::indicator, QRadioButton::indicator { width: 12px; height: 12px; border: 1px solid {mutedText}; border-radius: 3px; background: {ground}; }
+QRadioButton::indicator { border-radius: 7px; }
+QCheckBox::indicator:hover, QRadioButton::indicator:hover { border-color: {accent}; }
+QCheckBox::indicator:checked, QRadioButton::indicator:checked { background: qradialgradient(cx:0.5, cy:0.5, radius:0.5, fx:0.5, fy:0.5,
+    stop:0 {accent}, stop:0.62 {accent}, stop:0.66 {ground}, stop:1 {ground}); border-color: {accent}; }
+QCheckBox::indicator:checked { background: {accent}; image: url(:/emca/symbols/{check}.svg); }
+QCheckBox::indicator:disabled, QRadioButton::indicator:disabled { border-color: {border}; }
 
 QSlider::groove:horizontal { height: 4px; background: {border}; border-radius: 2px; }
 QSlider::sub-page:horizontal { background: {mutedText}; border-radius: 2px; }
@@ -116,6 +127,7 @@ QString styleSheet(const ThemeColors& c) {
     };
     QString sheet = QString::fromLatin1(kSheet);
     for (const auto& [name, color] : names) sheet.replace(QLatin1String(name), color.name());
+    sheet.replace(QLatin1String("{check}"), QLatin1String(c.onAccent.lightness() > 128 ? "check-light" : "check-dark"));
     return sheet;
 }
 

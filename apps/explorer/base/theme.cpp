@@ -9,6 +9,9 @@
 #include "base/style_sheet.h"
 #include "base/tabular_font.h"
 
+/// Outside of the namespaces, as Qt's macro wants it: a static library's resources are registered by hand.
+static void registerSymbols() { Q_INIT_RESOURCE(symbols); }
+
 namespace emca::explorer {
 namespace {
 
@@ -177,6 +180,7 @@ void Theme::setToneMap(const analysis::ToneMap& toneMap) {
 }
 
 void Theme::applyTo(QApplication& application) {
+    registerSymbols();
     application_ = &application;
     application.setStyle(QStyleFactory::create("Fusion"));
     application.setPalette(paletteOf(colors_));

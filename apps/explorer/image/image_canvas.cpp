@@ -282,16 +282,17 @@ void ImageCanvas::paintMarker(QPainter& painter) {
     // A box around the pixel and four ticks: dark, light and orange lines side by side show on whatever lies below.
     QRectF box = transform_.rectOf(*marked_);
     const double grow = std::max(0.0, (9 - box.width()) / 2);
-    box.adjust(-grow - 1, -grow - 1, grow + 1, grow + 1);
+    // On whole positions, so that lines of even width have sharp edges.
+    box = QRectF(box.adjusted(-grow - 1, -grow - 1, grow + 1, grow + 1).toAlignedRect());
     const double gap = 2, tick = 7;
     const QPointF c = box.center();
     const QLineF ticks[] = {{c.x(), box.top() - gap, c.x(), box.top() - gap - tick}, {c.x(), box.bottom() + gap, c.x(), box.bottom() + gap + tick},
                             {box.left() - gap, c.y(), box.left() - gap - tick, c.y()}, {box.right() + gap, c.y(), box.right() + gap + tick, c.y()}};
-    frame(box, QColor(0, 0, 0, 230), 5);
+    frame(box, QColor(0, 0, 0), 6);
     painter.drawLines(ticks, 4);
-    frame(box, QColor(255, 255, 255), 3);
+    frame(box, QColor(255, 255, 255), 4);
     painter.drawLines(ticks, 4);
-    frame(box, theme_.colors().selected, 1.6);
+    frame(box, theme_.colors().selected, 2);
     painter.drawLines(ticks, 4);
 }
 

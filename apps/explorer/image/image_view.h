@@ -40,7 +40,6 @@ class ImageView : public QWidget {
 
   signals:
     void traceAgainWanted();
-    void closeImageWanted(std::size_t index);
 
   protected:
     void keyPressEvent(QKeyEvent* event) override;

@@ -35,7 +35,11 @@ class ImageViewTest : public testing::Test {
         QTest::qWait(1);
     }
     ImageCanvas& canvas() { return view.canvas(); }
-    QPoint screen(Pixel pixel) { return canvas().transform().rectOf(pixel).center().toPoint(); }
+    /// Rounded down: at zoom 1 the centre of a pixel lies between two positions of the mouse.
+    QPoint screen(Pixel pixel) {
+        const QPointF centre = canvas().transform().rectOf(pixel).center();
+        return {static_cast<int>(std::floor(centre.x())), static_cast<int>(std::floor(centre.y()))};
+    }
     void wheel(QPointF at, int steps) {
         QWheelEvent event(at, canvas().mapToGlobal(at.toPoint()), {}, {0, 120 * steps}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
         QCoreApplication::sendEvent(&canvas(), &event);

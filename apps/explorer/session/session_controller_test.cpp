@@ -91,14 +91,14 @@ TEST_F(SessionTest, TheHistoryRepliesWithoutTheRenderer) {
     EXPECT_EQ(renderer.replays, asked);
     EXPECT_EQ(dataset.traces().size(), 2u);
     session.traceAgain();
-    ASSERT_TRUE(waitFor([&] { return renderer.replays == asked + 1 && !session.isTracing(); }));
+    ASSERT_TRUE(waitFor([&] { return renderer.replays == asked + 1 && !session.isTracing(); }, 3000)) << renderer.replays << " after " << asked;
 }
 
 TEST_F(SessionTest, TheLatestClickWins) {
     connectAndRender();
     renderer.pixelMilliseconds = 30000;
     selection.setPixel(Pixel{1, 1});
-    ASSERT_TRUE(waitFor([&] { return renderer.replays == 1; }));
+    ASSERT_TRUE(waitFor([&] { return renderer.replays == 1; }, 3000)) << renderer.replays;
     renderer.pixelMilliseconds = 0;
     selection.setPixel(Pixel{2, 2});
     ASSERT_TRUE(traced({2, 2}));
@@ -115,7 +115,7 @@ TEST_F(SessionTest, ACancelledRenderKeepsWhatArrivedAndIsNoFailure) {
     EXPECT_TRUE(dataset.currentImage()->preview);
     const auto preview = dataset.currentImage()->image;
     ASSERT_TRUE(waitFor([&] { return !isBlack(preview->color.color({1, 1})); }));
-    EXPECT_GT(session.renderFraction(), 0);
+    EXPECT_TRUE(waitFor([&] { return session.renderFraction() > 0; }));
     session.cancelRender();
     EXPECT_FALSE(session.isRendering());
     EXPECT_FALSE(dataset.currentImage()->preview);

@@ -85,9 +85,11 @@ Result<Color> FakeRenderer::renderPixel(Pixel pixel, const RenderSettings& setti
         emca.setDepthIndex(1);
         emca.setIntersectionPos(Vec3f{float(pixel.x) * 0.1f - 1, 1 - float(pixel.y) * 0.1f, 0});
         emca.addIntersectionData("throughput", Color(1.f));
-        emca.setDepthIndex(2);
-        emca.setIntersectionPos(Vec3f{0, 2, 1 + 0.1f * float(s)});
-        emca.addIntersectionData("throughput", s == 2 ? Color(16.f) : Color(1.f));
+        for (std::uint32_t d = 2; d <= depth; ++d) {
+            emca.setDepthIndex(static_cast<std::int32_t>(d));
+            emca.setIntersectionPos(Vec3f{0.2f * float(d % 3) - 0.2f, 2.f - 0.1f * float(d), 1 + 0.1f * float(s % 32)});
+            emca.addIntersectionData("throughput", s == 2 ? Color(16.f) : Color(1.f));
+        }
         emca.setIntersectionEmission(sampleValue(pixel, s));
         emca.setFinalEstimate(sampleValue(pixel, s));
         emca.endPath();

@@ -12,7 +12,7 @@ namespace emca::explorer {
 class FakeRenderer : public Renderer {
   public:
     std::string scene = "fake";
-    std::uint32_t width = 24, height = 16, samplesPerPixel = 4;
+    std::uint32_t width = 24, height = 16, samplesPerPixel = 4, depth = 2;
     std::atomic<int> rowMilliseconds{0};      ///< how long a row of a render takes
     std::atomic<int> pixelMilliseconds{0};    ///< how long a replay takes
     std::atomic<int> replays{0};              ///< pixels asked for so far

@@ -103,7 +103,7 @@ void MainWindow::addDocks() {
     arrange();
 }
 
-/// All docks share one area, so that splits nest as LOOK wants: image over plots | 3D over tree and table | tools.
+/// All docks share one area, so that splits nest as LOOK wants: image over plots | 3D and tools over tree and table.
 void MainWindow::arrange() {
     PanelDock* image = dock("image");
     PanelDock* scene = dock("scene");
@@ -114,7 +114,6 @@ void MainWindow::arrange() {
     }
     addDockWidget(Qt::LeftDockWidgetArea, image);
     splitDockWidget(image, scene, Qt::Horizontal);
-    splitDockWidget(scene, tools, Qt::Horizontal);
     if (!views_.plots.empty()) {
         PanelDock* first = dock(views_.plots.front().name);
         splitDockWidget(image, first, Qt::Vertical);
@@ -122,16 +121,17 @@ void MainWindow::arrange() {
     }
     splitDockWidget(scene, dock("paths"), Qt::Vertical);
     splitDockWidget(dock("paths"), dock("vertex"), Qt::Horizontal);
+    splitDockWidget(scene, tools, Qt::Horizontal);
     tabifyDockWidget(tools, dock("history"));
     tabifyDockWidget(dock("history"), dock("sceneOptions"));
     for (const auto& [name, made] : docks_) made->show();
 
     const int w = width(), h = height() - 120;
-    const int toolsWidth = std::min(280, w / 6), left = w * 2 / 5, right = w - left - toolsWidth;
-    resizeDocks({image, scene, tools}, {left, right, toolsWidth}, Qt::Horizontal);
+    const int toolsWidth = std::min(300, w / 6), left = w * 2 / 5, right = w - left;
+    resizeDocks({image, scene, tools}, {left, right - toolsWidth, toolsWidth}, Qt::Horizontal);
     if (!views_.plots.empty()) resizeDocks({image, dock(views_.plots.front().name)}, {h * 56 / 100, h * 44 / 100}, Qt::Vertical);
-    resizeDocks({scene, dock("paths")}, {h * 60 / 100, h * 40 / 100}, Qt::Vertical);
-    resizeDocks({dock("paths"), dock("vertex")}, {right * 58 / 100, right * 42 / 100}, Qt::Horizontal);
+    resizeDocks({scene, dock("paths")}, {h * 58 / 100, h * 42 / 100}, Qt::Vertical);
+    resizeDocks({dock("paths"), dock("vertex")}, {right * 54 / 100, right * 46 / 100}, Qt::Horizontal);
     if (!views_.plots.empty()) dock(views_.plots.front().name)->raise();
     tools->raise();
     updateDockTitles();

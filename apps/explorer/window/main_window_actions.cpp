@@ -60,8 +60,15 @@ void MainWindow::addMenus() {
     addAction(selection, "nextVertex", tr("Next vertex"), QKeySequence("."), [this] { stepVertex(dataset_, selection_, +1); });
     selection->addSeparator();
     addAction(selection, "focus", tr("Focus on the selection"), QKeySequence("F"), [this] { focusSelection(); });
+    QAction* rectangle = addAction(selection, "rectangle", tr("Select in a rectangle (3D)"), QKeySequence("R"), [this] {
+        views_.scene->setRectangleMode(action("rectangle")->isChecked());
+    });
+    rectangle->setCheckable(true);
+    connect(views_.scene, &SceneView::rectangleModeChanged, rectangle, &QAction::setChecked);
     addAction(selection, "clear", tr("Clear"), QKeySequence("Esc"), [this] {
-        if (selection_.state().vertex) selection_.clearVertex();
+        // One step back at a time: the mode, the vertex, the paths.
+        if (action("rectangle")->isChecked()) views_.scene->setRectangleMode(false);
+        else if (selection_.state().vertex) selection_.clearVertex();
         else selection_.clearPaths();
     });
     addAction(selection, "undo", tr("Undo"), QKeySequence::Undo, [this] { undo_.undo(); });
@@ -125,7 +132,9 @@ void MainWindow::addToolBar() {
     icons_ = {{action("render"), Icon::render}, {action("cancel"), Icon::cancel}, {action("openImage"), Icon::open},
               {action("saveImage"), Icon::save}, {action("previousPath"), Icon::previous}, {action("nextPath"), Icon::next},
               {action("previousVertex"), Icon::previous}, {action("nextVertex"), Icon::next}, {action("focus"), Icon::focus}};
-    for (const char* name : {"render", "cancel", "openImage", "saveImage", "focus"}) action(name)->setIconText(action(name)->text().remove(QStringLiteral("…")).section(' ', 0, 0));
+    // A leading space keeps the words off their symbols.
+    for (const char* name : {"render", "cancel", "openImage", "saveImage", "focus"})
+        action(name)->setIconText(' ' + action(name)->text().remove(QStringLiteral("…")).section(' ', 0, 0));
     setIcons();
     connect(&theme_, &Theme::themeChanged, this, &MainWindow::setIcons);
 }
@@ -152,7 +161,7 @@ void MainWindow::updateActions() {
     for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex"}) action(name)->setEnabled(paths);
     action("undo")->setEnabled(undo_.canUndo());
     action("redo")->setEnabled(undo_.canRedo());
-    connectButton_->setText(connected ? tr("Connected") : tr("Connect…"));
+    connectButton_->setText(' ' + (connected ? tr("Connected") : tr("Connect…")));
 }
 
 void MainWindow::toggleLog() {

@@ -35,6 +35,8 @@ struct Program {
         window->resize(1600, 900);
         window->show();
         EXPECT_TRUE(QTest::qWaitForWindowExposed(window.get()));
+        // Without a window manager nobody else gives the focus, and shortcuts need it.
+        QApplication::setActiveWindow(window.get());
     }
     QSettings settings;
     Theme theme;
