@@ -29,16 +29,14 @@ float densityOpacity(std::size_t paths) {
 
 PathLayer::PathLayer(vtkRenderer& strokes)
     : context_(strokes), coarseContext_(strokes), contextNextEvents_(strokes), selectedNextEvents_(strokes), selected_(strokes),
-      current_(strokes), marks_(strokes), hover_(strokes) {}
+      current_(strokes), marks_(strokes) {}
 
 void PathLayer::setPaths(const PathSet* paths, const PathGeometry* geometry) {
     paths_ = paths;
     geometry_ = geometry;
     selection_ = {};
-    hovered_.reset();
     rebuildContext();
     rebuildSelected();
-    rebuildHover();
 }
 
 void PathLayer::apply(const SceneOptions& options, const ThemeColors& colors) {
@@ -50,19 +48,12 @@ void PathLayer::apply(const SceneOptions& options, const ThemeColors& colors) {
     colors_ = colors;
     if (context) rebuildContext();
     rebuildSelected();
-    rebuildHover();
 }
 
 void PathLayer::setSelection(ShownSelection selection) {
     if (selection == selection_) return;
     selection_ = std::move(selection);
     rebuildSelected();
-}
-
-void PathLayer::setHovered(std::optional<Index> vertex) {
-    if (vertex == hovered_) return;
-    hovered_ = vertex;
-    rebuildHover();
 }
 
 bool PathLayer::isDrawn(Index path) const { return std::ranges::binary_search(drawn_, path); }
@@ -159,13 +150,6 @@ void PathLayer::rebuildSelected() {
     updateDimming();
 }
 
-void PathLayer::rebuildHover() {
-    std::vector<Stroke> strokes;
-    if (hovered_ && geometry_ && *hovered_ < geometry_->points.size())
-        strokes.push_back({geometry_->points[*hovered_], {}, 10.f * options_.lineWidth, StrokeStyle::ring, colors_.hover});
-    hover_.setStrokes(strokes);
-}
-
 void PathLayer::updateDimming() {
     const bool dimmed = !selection_.paths.empty();
     const float density = densityOpacity(drawn_.size()) * options_.pathOpacity;
@@ -180,7 +164,7 @@ void PathLayer::updateDimming() {
     selected_.look().opacity = selection_.path && selection_.paths.size() > 1 ? 0.5f : 1.f;
 
     const QColor halo = withAlpha(colors_.halo, 0.85);
-    for (StrokeLayer* layer : {&selectedNextEvents_, &selected_, &current_, &marks_, &hover_}) {
+    for (StrokeLayer* layer : {&selectedNextEvents_, &selected_, &current_, &marks_}) {
         layer->look().halo = 1.3f;
         layer->look().haloColor = halo;
         layer->look().writesDepth = true;
@@ -190,14 +174,12 @@ void PathLayer::updateDimming() {
         layer->look().fade = quiet ? 0.7f : 0.45f;
         layer->look().fadeColor = colors_.sceneBottom;
     }
-    // Dots lie on surfaces, half of each inside: bring them forward, and what is selected more.
+    // Dots lie on surfaces, half of each inside: bring them forward.
     // Through translucent surfaces they are seen whatever line crosses them.
     current_.look().pull = 0.005f;   // over next-event rays to the same light
     selectedNextEvents_.look().pull = 0.002f;   // their ends lie on lights
-    for (StrokeLayer* layer : {&marks_, &hover_}) {
-        layer->look().pull = 0.02f;
-        layer->look().onTop = options_.surfaceOpacity < 0.995f;
-    }
+    marks_.look().pull = 0.02f;
+    marks_.look().onTop = options_.surfaceOpacity < 0.995f;
 }
 
 ShownRoles PathLayer::roles() const {
@@ -212,7 +194,7 @@ void PathLayer::setCoarse(bool coarse) {
 }
 
 void PathLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar) {
-    for (StrokeLayer* layer : {&context_, &coarseContext_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_, &marks_, &hover_}) {
+    for (StrokeLayer* layer : {&context_, &coarseContext_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_, &marks_}) {
         layer->look().pixelScale = pixelScale;
         layer->look().fadeNear = fadeNear;
         layer->look().fadeFar = fadeFar;

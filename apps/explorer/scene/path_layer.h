@@ -37,7 +37,6 @@ class PathLayer {
     void setPaths(const PathSet* paths, const PathGeometry* geometry);
     void apply(const SceneOptions& options, const ThemeColors& colors);
     void setSelection(ShownSelection selection);
-    void setHovered(std::optional<Index> vertex);
     /// Only some of the paths that are not selected, as long as the camera moves and frames are slow.
     void setCoarse(bool coarse);
     void prepareFrame(float pixelScale, float fadeNear, float fadeFar);
@@ -50,7 +49,6 @@ class PathLayer {
   private:
     void rebuildContext();
     void rebuildSelected();
-    void rebuildHover();
     void updateDimming();
     void appendPath(Index path, bool current, std::vector<Stroke>& lines, std::vector<Stroke>& marks);
     void appendNextEvents(Index path, std::optional<Index> onlyVertex, float width, std::vector<Stroke>& lines);
@@ -60,9 +58,8 @@ class PathLayer {
     SceneOptions options_;
     ThemeColors colors_;
     ShownSelection selection_;
-    std::optional<Index> hovered_;
     std::vector<Index> drawn_;
-    StrokeLayer context_, coarseContext_, contextNextEvents_, selectedNextEvents_, selected_, current_, marks_, hover_;
+    StrokeLayer context_, coarseContext_, contextNextEvents_, selectedNextEvents_, selected_, current_, marks_;
     ShownRoles contextRoles_, selectedRoles_;
     bool begun_ = false, coarse_ = false;
 };

@@ -97,7 +97,10 @@ void bench(const char* title, std::uint32_t pathCount, std::uint32_t triangles, 
         SceneOptions changed = options;
         edit(changed);
         view.setOptions(changed);
-        measure(what, rounds, [&](int i) { selection.setHovered(vertexId(paths, paths.vertices(path(i)).first)); });
+        measure(what, rounds, [&](int) {
+            changed.cameraGlyph = !changed.cameraGlyph;   // asks for a frame
+            view.setOptions(changed);
+        });
     };
     frameWith("frame without paths", [](SceneOptions& o) { o.paths = PathChoice::none; });
     frameWith("  and without FXAA", [](SceneOptions& o) { o.paths = PathChoice::none; o.smoothEdges = false; });

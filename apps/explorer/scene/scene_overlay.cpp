@@ -142,6 +142,13 @@ void paintTexts(QPainter& p, QSizeF size, const OverlayContent& content, const T
 
 void paintOverlay(QPainter& painter, QSizeF size, const OverlayContent& content, const Theme& theme) {
     painter.setRenderHint(QPainter::Antialiasing);
+    if (content.ring) {
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(QPen(translucent(theme.colors().halo, 0.85), 5));
+        painter.drawEllipse(*content.ring, 10, 10);
+        painter.setPen(QPen(theme.colors().hover, 2.4));
+        painter.drawEllipse(*content.ring, 10, 10);
+    }
     paintLabels(painter, content, theme);
     paintLegend(painter, size, content, theme);
     paintTexts(painter, size, content, theme);

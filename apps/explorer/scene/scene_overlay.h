@@ -24,6 +24,7 @@ struct OverlayContent {
     struct Card { QPointF at; QString title; std::vector<std::pair<QString, QString>> rows; };
 
     std::vector<Label> labels;          ///< depth numbers beside vertices; strong ones first
+    std::optional<QPointF> ring;        ///< around the hovered vertex: here, so that hovering needs no new frame
     std::vector<LegendEntry> legend;    ///< bottom left
     QString caption;                    ///< bottom right: what is left out of the picture
     QString hint;                       ///< top middle: what to do now

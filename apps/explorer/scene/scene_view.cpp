@@ -254,8 +254,6 @@ void SceneView::Impl::selectionChanged(std::uint32_t parts, bool fly) {
     }
     if (parts & Part::hover) {
         hovered = selection.hovered() ? findVertex(paths, *selection.hovered()) : std::nullopt;
-        if (pathLayer) pathLayer->setHovered(hovered);
-        if (canvas) canvas->requestRender();
     }
     updateOverlay();
 }

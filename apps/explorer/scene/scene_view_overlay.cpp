@@ -55,6 +55,8 @@ OverlayContent SceneView::Impl::overlayContent(Viewport size) const {
     content.caption = caption.join("   ·   ");
     if (input && input->rectangleMode()) content.hint = "Drag a rectangle over vertices or paths   ·   Esc cancels";
     else if (paths.empty() && dataset.meshes()) content.hint = "Click a pixel in the image to see its paths here";
+    if (hovered)
+        if (const auto s = projected.project(geometry.points[*hovered])) content.ring = QPointF(s->x, s->y);
     if (hovered && cursor) content.card = vertexCard(paths, *hovered, *cursor);
     return content;
 }

@@ -221,13 +221,11 @@ TEST_F(SceneViewTest, hoverMarksTheVertexAndLeavingClearsIt) {
     showHandMade();
     const auto id = vertex(0, 1);
     QTest::mouseMove(&canvas(), at(id) + QPoint(2, 1));
-    qApp->processEvents();
-    ASSERT_TRUE(selection_.hovered());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return selection_.hovered().has_value(); }));
     EXPECT_EQ(*selection_.hovered(), id);
     EXPECT_GT(count(picture(), at(id), 14, theme_.colors().hover), 20);
     QTest::mouseMove(&canvas(), QPoint(20, 20));
-    qApp->processEvents();
-    EXPECT_FALSE(selection_.hovered());
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !selection_.hovered(); }));
 }
 
 TEST_F(SceneViewTest, rectangleByKeySelectsPathsOnce) {

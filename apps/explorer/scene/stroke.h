@@ -15,13 +15,12 @@ enum class StrokeStyle : std::uint8_t {
     dashed = 1,  ///< dashes of equal length on the screen
     arrow = 2,   ///< a head a little behind the middle of the segment, pointing to its end; left out on short ones
     dot = 3,     ///< a disc at `from`
-    ring = 4,    ///< a circle around `from`
 };
 
 /// One mark of the 3D view. World space.
 struct Stroke {
     Vec3f from, to;
-    float width = 2;      ///< pixels: of the line, of the whole arrow head, diameter of dot and ring
+    float width = 2;      ///< pixels: of the line, of the whole arrow head, diameter of a dot
     StrokeStyle style = StrokeStyle::line;
     QColor color;         ///< with alpha
 };

@@ -55,7 +55,7 @@ void StrokeLayer::setStrokes(std::span<const Stroke> strokes) {
     vtkTypeInt32 base = 0;
     for (const Stroke& s : strokes) {
         if (!isFinite(s.from) || !isFinite(s.to)) continue;
-        const bool point = s.style == StrokeStyle::dot || s.style == StrokeStyle::ring;
+        const bool point = s.style == StrokeStyle::dot;
         const Vec3f to = point ? s.from : s.to;
         const float rgba[4] = {float(s.color.redF()), float(s.color.greenF()), float(s.color.blueF()), float(s.color.alphaF())};
         for (int i = 0; i < 4; ++i) {

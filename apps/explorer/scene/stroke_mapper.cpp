@@ -110,9 +110,7 @@ void main() {
   float along = l2 > 1e-8 ? dot(p - a, way) / l2 : 0.0;
   float edge = distance(p, a + clamp(along, 0.0, 1.0) * way) - shape.x;
   float style = shape.y;
-  if (style > 3.5) {
-    edge = abs(edge) - 1.1 * strokePixels.x;
-  } else if (style > 1.5 && style < 2.5) {
+  if (style > 1.5 && style < 2.5) {
     // Triangle: full width at the tail, none at the tip; 0.9 turns the slope into a distance.
     vec2 u = way / sqrt(max(l2, 1e-8));
     float across = abs(dot(p - a, vec2(-u.y, u.x)));

@@ -234,17 +234,19 @@ ViewPose framed(const ViewPose& pose, Viewport viewport, std::span<const Vec3f> 
     };
     const std::optional<Vec3d> wish =
         interest && isFinite(*interest) ? std::optional(widened(*interest) - pose.position) : std::nullopt;
+    const double wishX = wish ? ((minX + maxX) / 2 + dot(*wish, r)) / 2 : (minX + maxX) / 2;
+    const double wishY = wish ? ((minY + maxY) / 2 + dot(*wish, u)) / 2 : (minY + maxY) / 2;
     if (pose.orthographic) {
         const double half = std::max({(maxY - minY) / (2 * ty), (maxX - minX) / (2 * tx), least});
-        cx = slack(maxX - half * tx, minX + half * tx, wish ? dot(*wish, r) : (minX + maxX) / 2);
-        cy = slack(maxY - half * ty, minY + half * ty, wish ? dot(*wish, u) : (minY + maxY) / 2);
+        cx = slack(maxX - half * tx, minX + half * tx, wishX);
+        cy = slack(maxY - half * ty, minY + half * ty, wishY);
         const double focusDepth = wish ? dot(*wish, d) : (nearest + farthest) / 2;
         cz = focusDepth - half;
     } else {
         cz = std::min({-(rightMost + left) / (2 * tx), -(top + bottom) / (2 * ty), nearest - least * 0.2});
         cz = std::min(cz, (wish ? dot(*wish, d) : farthest) - least);
-        cx = slack(rightMost + cz * tx, -left - cz * tx, wish ? dot(*wish, r) : (minX + maxX) / 2);
-        cy = slack(top + cz * ty, -bottom - cz * ty, wish ? dot(*wish, u) : (minY + maxY) / 2);
+        cx = slack(rightMost + cz * tx, -left - cz * tx, wishX);
+        cy = slack(top + cz * ty, -bottom - cz * ty, wishY);
     }
     result.position = pose.position + r * cx + u * cy + d * cz;
     const double focusDepth = wish ? dot(*wish, d) : (nearest + farthest) / 2;

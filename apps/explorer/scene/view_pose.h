@@ -84,8 +84,8 @@ ViewPose zoomed(const ViewPose& pose, Viewport viewport, double factor, double x
 ViewPose flown(const ViewPose& pose, double forward, double right, double up);
 
 /// Nearest pose with the same direction that has all points inside the frame, `margin` (fraction of the view, each
-/// side) away from its border. Within the slack that remains, `interest` comes as near to the centre as it can, and
-/// the focus goes to its depth. Points that are not finite are ignored; without any, the pose stays.
+/// side) away from its border. Within the slack that remains, the centre is half way between the middle of the points
+/// and `interest`, and the focus goes to the depth of `interest`. Points that are not finite are ignored; without any, the pose stays.
 ViewPose framed(const ViewPose& pose, Viewport viewport, std::span<const Vec3f> points, double margin,
                 std::optional<Vec3f> interest = {});
 
