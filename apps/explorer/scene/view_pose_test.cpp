@@ -186,7 +186,10 @@ TEST(Framed, allPointsAreInsideAndOneTouchesTheMargin) {
                     slack = std::min(slack, edge);
                 }
             }
-            EXPECT_NEAR(slack, 0, 1e-6);
+            // No nearer pose would do, unless the view keeps its distance to the point of interest.
+            if (!wish) {
+                EXPECT_NEAR(slack, 0, 1e-6);
+            }
         }
     }
 }
