@@ -92,9 +92,10 @@ TEST(Stranger, NobodyThere) {
 }
 
 TEST(Stranger, SpeaksAnotherLanguage) {
-    for (const char* words : {"HTTP/1.1 400 Bad Request\r\n\r\n", "SSH-2.0-OpenSSH_9.2\r\n", "\x10\x00\x00\x00garbagegarbage!!"}) {
-        Stranger stranger([words](tcp::socket& socket) {
-            write(socket, std::string(words, 27));
+    using namespace std::string_literals;
+    for (const std::string& words : {"HTTP/1.1 400 Bad Request\r\n\r\n"s, "SSH-2.0-OpenSSH_9.2\r\n"s, "\x10\0\0\0garbagegarbage!!"s}) {
+        Stranger stranger([&words](tcp::socket& socket) {
+            write(socket, words);
             waitForEnd(socket);
         });
         EXPECT_CODE(Connection::open(stranger.address(), quick()), protocolViolation);
