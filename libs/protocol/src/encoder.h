@@ -18,11 +18,13 @@ template <typename Core>
 Offset<WireVector<Wire<Core>>> column(Builder& builder, std::span<const Core> values,
                                       std::size_t alignment = alignof(Core)) {
     if (values.empty()) return 0;
+    // FlatBuffers takes the size of an element for its alignment, which would spoil that of the whole message where a
+    // size is no power of two (a colour has 12 bytes): so it is told of as many elements of the alignment's size.
+    constexpr std::size_t kUnit = alignof(Core);
     builder.ForceVectorAlignment(values.size(), sizeof(Core), alignment);
-    std::uint8_t* place = nullptr;
-    const auto offset = builder.CreateUninitializedVector(values.size(), sizeof(Core), &place);
-    std::memcpy(place, values.data(), values.size_bytes());
-    return offset;
+    builder.StartVector(values.size_bytes() / kUnit, kUnit);
+    builder.PushBytes(reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes());
+    return builder.EndVector(values.size());
 }
 template <typename Core>
 Offset<WireVector<Wire<Core>>> column(Builder& builder, const SharedArray<Core>& values,
