@@ -25,10 +25,42 @@ std::optional<double> throughput(const PathSet& paths, Index vertex) {
     return std::nullopt;
 }
 
-/// The vertex after which the path carries so much more than before. Where no throughput is recorded: the vertex that
-/// added most light.
+/// Whether the direction from a vertex was one of many: no mirror, no straight passage.
+bool choseDirection(const PathSet& paths, Index vertex) {
+    const auto scattering = paths.scattering(vertex);
+    return !scattering || (scattering->lobe != Lobe::specular && scattering->lobe != Lobe::straight && scattering->event != Event::pass);
+}
+
+/// The contribution that dominates the path and the vertex that decided on it: for light that the walk hit, the last one
+/// before it whose direction was a choice; for sampled light, the one that was connected with it.
+bool findByContribution(const PathSet& paths, Suspect& suspect) {
+    const IndexRange range = paths.vertices(suspect.path);
+    float most = 0;
+    for (Index v = range.first; v < range.last; ++v) {
+        const IndexRange contributions = paths.contributions(v);
+        for (Index i = contributions.first; i < contributions.last; ++i) {
+            const float value = luminance(paths.contribution(i).value);
+            if (value <= most) continue;
+            most = value;
+            suspect.light = Suspect::Light{i, v};
+            suspect.vertex = v;
+        }
+    }
+    if (!suspect.light) return false;
+    if (paths.contribution(suspect.light->contribution).end != LightEnd::connected && *suspect.vertex > range.first) {
+        Index v = *suspect.vertex - 1;
+        while (v > range.first && !choseDirection(paths, v)) --v;
+        suspect.vertex = v;
+    }
+    suspect.before = throughput(paths, *suspect.vertex);
+    if (*suspect.vertex + 1 < range.last) suspect.after = throughput(paths, *suspect.vertex + 1);
+    return true;
+}
+
+/// Without recorded contributions: the vertex after which the path carries so much more than before.
 void findVertex(const PathSet& paths, Suspect& suspect) {
     const IndexRange range = paths.vertices(suspect.path);
+    if (findByContribution(paths, suspect)) return;
     double jump = 0;
     std::optional<double> before;
     for (Index v = range.first; v < range.last; ++v) {
@@ -41,17 +73,6 @@ void findVertex(const PathSet& paths, Suspect& suspect) {
             suspect.after = here;
         }
         if (here) before = here;
-    }
-    if (suspect.vertex) return;
-    double most = 0;
-    for (Index v = range.first; v < range.last; ++v) {
-        double added = 0;
-        const IndexRange contributions = paths.contributions(v);
-        for (Index i = contributions.first; i < contributions.last; ++i) added += double(luminance(paths.contribution(i).value));
-        if (added > most) {
-            most = added;
-            suspect.vertex = v;
-        }
     }
     if (!suspect.vertex && !range.empty()) suspect.vertex = range.last - 1;
 }
@@ -117,46 +138,67 @@ std::optional<StrikingPixel> strikingPixel(const Image& image) {
     return brightest;
 }
 
+namespace {
+
+QString pixelWords(const client::ImageEntry* entry, Pixel pixel) {
+    if (!entry || !entry->image || !entry->image->color.contains(pixel)) return {};
+    const Color value = entry->image->color.color(pixel);
+    QString text = QStringLiteral("**The pixel.** %1 has the value %2, a luminance of %3 W/(sr m²)")
+                       .arg(toQString(analysis::formatPixel(pixel)), toQString(analysis::formatColor(value)), number(double(luminance(value))));
+    for (const analysis::Firefly& firefly : analysis::findFireflies(entry->image->color))
+        if (firefly.pixel == pixel)
+            text += QStringLiteral(", while the median of its neighbours is %1").arg(number(double(firefly.neighbours)));
+    return text + QStringLiteral(".\n\n");
+}
+
+QString replayWords(const client::Trace& trace) {
+    const Replay replay = trace.replays.empty() ? Replay{} : trace.replays.front();
+    return QStringLiteral("**The replay.** The renderer traced this pixel again and recorded %1 paths with %2 vertices in %3 (renderer: %4). "
+                          "Against the image the replay is *%5*.\n\n")
+        .arg(trace.paths.pathCount()).arg(trace.paths.vertexCount())
+        .arg(toQString(analysis::formatDuration(trace.totalSeconds)), toQString(analysis::formatDuration(trace.renderSeconds)), toQString(name(replay.verdict)));
+}
+
+QString outlierWords(const PathSet& paths, const Suspect& suspect) {
+    return QStringLiteral("**The outliers.** The paths' luminance has the mean %1 and the standard deviation %2; %3 of %4 paths lie above "
+                          "mean + 3 σ = %5. The strongest is sample %6 with %7: %8 % of the light of the whole pixel.\n\n")
+        .arg(number(suspect.report.mean), number(suspect.report.deviation)).arg(suspect.report.outliers.size()).arg(paths.pathCount())
+        .arg(number(suspect.report.upper)).arg(paths.sample(suspect.path)).arg(number(suspect.luminance), number(100 * suspect.share));
+}
+
+QString vertexWords(const PathSet& paths, const Suspect& suspect) {
+    if (!suspect.vertex) return {};
+    QString text = QStringLiteral("**The vertex.** At depth %1 of %2").arg(paths.depthIndex(*suspect.vertex)).arg(paths.depth(suspect.path));
+    if (const QString event = eventWords(paths, *suspect.vertex); !event.isEmpty()) text += QStringLiteral(" (%1)").arg(event);
+    if (suspect.light) {
+        const Contribution& light = paths.contribution(suspect.light->contribution);
+        text += QStringLiteral(" the path chose the direction of its light: %1 W/(sr m²) by “%2”%3, added at depth %4")
+                    .arg(toQString(analysis::formatColor(light.value)), toQString(paths.text(light.technique)),
+                         std::isnan(light.misWeight) ? QString() : QStringLiteral(" with the MIS weight %1").arg(number(double(light.misWeight))))
+                    .arg(paths.depthIndex(suspect.light->vertex));
+    } else if (suspect.before && suspect.after) {
+        text += QStringLiteral(" the throughput goes from %1 to %2, a factor of %3")
+                    .arg(number(*suspect.before), number(*suspect.after), number(*suspect.after / *suspect.before));
+    } else {
+        text += QStringLiteral(" the path ends");
+    }
+    text += QStringLiteral(".");
+    if (const QString data = dataLine(paths, *suspect.vertex); !data.isEmpty()) text += QStringLiteral(" The renderer recorded there: %1.").arg(data);
+    return text + QStringLiteral("\n\n");
+}
+
+}  // namespace
+
 QString tourStory(const client::Dataset& dataset, Pixel pixel, const Suspect& suspect,
                   const std::vector<std::pair<QString, QString>>& pictures) {
     const PathSet& paths = dataset.paths();
     const client::Trace& trace = *dataset.current().front();
-    const client::ImageEntry* entry = dataset.currentImage();
     QString text = QStringLiteral("# A tour: from a wrong pixel to the vertex that made it\n\n");
     if (dataset.info())
-        text += QStringLiteral("Renderer %1, scene %2, %3 × %4 pixels").arg(toQString(dataset.info()->renderer), toQString(dataset.info()->scene))
-                    .arg(dataset.info()->width).arg(dataset.info()->height);
-    if (entry) text += QStringLiteral(", %1 samples per pixel").arg(trace.samplesPerPixel);
-    text += QStringLiteral(".\n\n");
-
-    const QString at = toQString(analysis::formatPixel(pixel));
-    if (entry && entry->image && entry->image->color.contains(pixel)) {
-        const Color value = entry->image->color.color(pixel);
-        text += QStringLiteral("**The pixel.** %1 has the value %2, a luminance of %3 W/(sr m²)").arg(at, toQString(analysis::formatColor(value)), number(double(luminance(value))));
-        for (const analysis::Firefly& firefly : analysis::findFireflies(entry->image->color))
-            if (firefly.pixel == pixel)
-                text += QStringLiteral(", while the median of its neighbours is %1: %2 times as bright").arg(number(double(firefly.neighbours)), number(double(firefly.ratio)));
-        text += QStringLiteral(".\n\n");
-    }
-    const Replay replay = trace.replays.empty() ? Replay{} : trace.replays.front();
-    text += QStringLiteral("**The replay.** The renderer traced this pixel again and recorded %1 paths with %2 vertices in %3 (renderer: %4). "
-                           "Against the image the replay is *%5*.\n\n")
-                .arg(paths.pathCount()).arg(paths.vertexCount())
-                .arg(toQString(analysis::formatDuration(trace.totalSeconds)), toQString(analysis::formatDuration(trace.renderSeconds)), toQString(name(replay.verdict)));
-    text += QStringLiteral("**The outliers.** The paths' luminance has the mean %1 and the standard deviation %2; %3 of %4 paths lie above mean + 3 σ = %5. "
-                           "The strongest is sample %6 with %7: %8 % of the light of the whole pixel.\n\n")
-                .arg(number(suspect.report.mean), number(suspect.report.deviation)).arg(suspect.report.outliers.size()).arg(paths.pathCount())
-                .arg(number(suspect.report.upper)).arg(paths.sample(suspect.path)).arg(number(suspect.luminance), number(100 * suspect.share));
-    if (suspect.vertex) {
-        text += QStringLiteral("**The vertex.** At depth %1 of %2").arg(paths.depthIndex(*suspect.vertex)).arg(paths.depth(suspect.path));
-        if (const QString event = eventWords(paths, *suspect.vertex); !event.isEmpty()) text += QStringLiteral(" (%1)").arg(event);
-        if (suspect.before && suspect.after)
-            text += QStringLiteral(" the throughput goes from %1 to %2, a factor of %3").arg(number(*suspect.before), number(*suspect.after), number(*suspect.after / *suspect.before));
-        else text += QStringLiteral(" the path gets its light");
-        text += QStringLiteral(".");
-        if (const QString data = dataLine(paths, *suspect.vertex); !data.isEmpty()) text += QStringLiteral(" The renderer recorded there: %1.").arg(data);
-        text += QStringLiteral("\n\n");
-    }
+        text += QStringLiteral("Renderer %1, scene %2, %3 × %4 pixels, %5 samples per pixel.\n\n")
+                    .arg(toQString(dataset.info()->renderer), toQString(dataset.info()->scene))
+                    .arg(dataset.info()->width).arg(dataset.info()->height).arg(trace.samplesPerPixel);
+    text += pixelWords(dataset.currentImage(), pixel) + replayWords(trace) + outlierWords(paths, suspect) + vertexWords(paths, suspect);
     for (const auto& [file, caption] : pictures) text += QStringLiteral("![%1](%2)\n\n*%1*\n\n").arg(caption, file);
     return text;
 }

@@ -18,7 +18,12 @@ struct Suspect {
     analysis::OutlierReport report;       ///< of the luminance, mean + 3 sigma
     double luminance = 0;                 ///< of the path's final estimate
     double share = 0;                     ///< of the pixel's sum, in [0, 1]
-    std::optional<double> before, after;  ///< largest component of the throughput around the vertex
+    struct Light {
+        Index contribution = 0;           ///< position among the contributions
+        Index vertex = 0;                 ///< where it was added
+    };
+    std::optional<Light> light;           ///< what dominates the path, where the renderer records contributions
+    std::optional<double> before, after;  ///< largest component of the throughput that arrives there and at the next one
 };
 /// Nothing if no path has a final estimate.
 std::optional<Suspect> findSuspect(const PathSet& paths);
