@@ -10,6 +10,7 @@ cd "$(dirname "$0")/.."
 
 off_screen=0
 theme=dark
+pixel=146,97  # a firefly on the paperweight, at the scene's own size and seed
 while [ $# -gt 0 ]; do
   case "$1" in
     --off-screen) off_screen=1 ;;
@@ -41,8 +42,8 @@ if [ "$off_screen" -eq 1 ]; then
   rm -rf demo-output
   mkdir -p demo-output
   LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" \
-    "$build/bin/emca-explorer" "$address" --tour demo-output --theme "$theme"
+    "$build/bin/emca-explorer" "$address" --pixel "$pixel" --tour demo-output --theme "$theme"
   echo "The tour is in demo-output/: begin with demo-output/index.md"
 else
-  "$build/bin/emca-explorer" "$address" --pixel firefly --theme "$theme"
+  "$build/bin/emca-explorer" "$address" --pixel "$pixel" --theme "$theme"
 fi
