@@ -26,7 +26,10 @@ class BasicPathRecorder {
     constexpr BasicPathRecorder() = default;
 
     /// True inside a RecordScope.
-    bool isRecording() const { return Enabled && cursor_ != nullptr; }
+    bool isRecording() const {
+        if (Enabled && cursor_ != nullptr) [[unlikely]] return true;
+        return false;
+    }
 
     /// The pixel that the next paths belong to; a RecordScope sets it.
     void setPixel(Pixel pixel) { if (isRecording()) cursor_->setPixel(pixel); }
@@ -77,11 +80,12 @@ class BasicPathRecorder {
                          LightEnd end = LightEnd::automatic) {
         if (isRecording()) cursor_->addContribution(detail::toColor(detail::resolved(value)), technique, misWeight, end);
     }
+    // The key is copied behind the branch: were its own address passed on, compilers would fill it in before asking.
     /// Any value under any name; repeated names are kept in call order.
     template <typename T>
-    void addIntersectionData(Key key, const T& value) { if (isRecording()) cursor_->addVertexData(key, detail::stored(detail::resolved(value))); }
+    void addIntersectionData(Key key, const T& value) { if (isRecording()) cursor_->addVertexData(Key(key), detail::stored(detail::resolved(value))); }
     template <typename T>
-    void addPathData(Key key, const T& value) { if (isRecording()) cursor_->addPathData(key, detail::stored(detail::resolved(value))); }
+    void addPathData(Key key, const T& value) { if (isRecording()) cursor_->addPathData(Key(key), detail::stored(detail::resolved(value))); }
 
   private:
     friend class RecordScope;
