@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "emca/core/vector.h"
 
@@ -19,18 +22,34 @@ inline float square(float x) { return x * x; }
 /// Square root for arguments that only rounding makes negative.
 inline float safeSqrt(float x) { return std::sqrt(std::max(x, 0.f)); }
 
+/// Sine and cosine of an angle of at most pi / 4, to the last place: the first terms of their series.
+inline std::pair<float, float> sinCosSmall(float angle) {
+    const float x = angle * angle;
+    return {angle * (1.f - x * (1.f / 6 - x * (1.f / 120 - x * (1.f / 5040 - x * (1.f / 362880))))),
+            1.f - x * (0.5f - x * (1.f / 24 - x * (1.f / 720 - x * (1.f / 40320))))};
+}
+
+/// Exchanges a and b where `condition` holds, without a branch: where it is random, half of all branches would be
+/// predicted wrongly.
+inline void swapIf(bool condition, float& a, float& b) {
+    const auto bitsA = std::bit_cast<std::uint32_t>(a), bitsB = std::bit_cast<std::uint32_t>(b);
+    const std::uint32_t change = (bitsA ^ bitsB) & (0u - static_cast<std::uint32_t>(condition));
+    a = std::bit_cast<float>(bitsA ^ change);
+    b = std::bit_cast<float>(bitsB ^ change);
+}
+
 /// Point in the unit disk; area-preserving and continuous, so that strata of the square stay compact.
 /// Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
 inline Vec2f squareToConcentricDisk(Vec2f u) {
-    const float a = 2.f * u.x - 1.f;
-    const float b = 2.f * u.y - 1.f;
-    if (a == 0.f && b == 0.f) return {0.f, 0.f};
-    if (std::abs(a) > std::abs(b)) {
-        const float angle = (kPi / 4.f) * (b / a);
-        return {a * std::cos(angle), a * std::sin(angle)};
-    }
-    const float angle = (kPi / 4.f) * (a / b);  // measured from the y axis
-    return {b * std::sin(angle), b * std::cos(angle)};
+    float radius = 2.f * u.x - 1.f;  // signed; of the two coordinates the larger one
+    float across = 2.f * u.y - 1.f;
+    const bool aboutY = !(std::abs(radius) > std::abs(across));  // the angle is then measured from the y axis
+    swapIf(aboutY, radius, across);
+    if (radius == 0.f) return {0.f, 0.f};
+    const auto [sine, cosine] = sinCosSmall((kPi / 4.f) * (across / radius));
+    Vec2f point{radius * cosine, radius * sine};
+    swapIf(aboutY, point.x, point.y);
+    return point;
 }
 inline constexpr float squareToConcentricDiskPdf() { return kInvPi; }
 
