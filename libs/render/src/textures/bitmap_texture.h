@@ -21,6 +21,7 @@ class BitmapTexture final : public Texture {
     Color mean() const override { return image_->mean(); }
 
   private:
+    /// \param x, y  as wrapped(): inside the image, or negative for what is outside of it
     Color texel(int x, int y) const;
 
     std::shared_ptr<const TextureImage> image_;
