@@ -13,13 +13,13 @@ namespace {
 constexpr float kShadowShortening = 1.f - 1e-5f;  ///< the light's own surface is no occluder
 constexpr int kMaximumMaskLayers = 10000;         ///< beyond, a shadow ray counts as blocked
 
-RTCRay toEmbree(const Ray& ray) {
-    RTCRay r{};
-    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
-    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tnear = ray.minimumDistance, r.tfar = ray.maximumDistance;
+/// Fills in Embree's ray where it is; a copy of it would wait for the stores.
+void toEmbree(const Ray& ray, RTCRay& r) {
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z, r.tnear = ray.minimumDistance;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z, r.time = 0.f;
+    r.tfar = ray.maximumDistance;
     r.mask = ~0u;
-    return r;
+    r.id = r.flags = 0;
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ void Scene::prepareEmitters() {
 
 bool Scene::intersect(const Ray& ray, SurfaceInteraction& at) const {
     RTCRayHit rayHit;
-    rayHit.ray = toEmbree(ray);
+    toEmbree(ray, rayHit.ray);
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     EmbreeContext context = makeEmbreeContext();
     rtcIntersect1(embree_->scene, &context, &rayHit);
@@ -131,14 +131,15 @@ float Scene::transmittance(const SurfaceInteraction& from, const EmitterSample& 
     const Vec3f origin = offsetOrigin(from.position, from.geometricNormal, from.positionError, light.direction);
     // Aimed anew from there: parallel to the old direction it would pass by the limb of a sphere.
     const Vec3f toLight = light.position - origin;
-    const float distance = length(toLight);
-    Ray ray{origin, toLight / distance, 0.f, distance * kShadowShortening};
     if (!hasMasks_) {
-        RTCRay shadow = toEmbree(ray);
+        RTCRay shadow;
+        toEmbree({origin, toLight, 0.f, kShadowShortening}, shadow);  // Embree needs no unit direction
         EmbreeContext context = makeEmbreeContext();
         rtcOccluded1(embree_->scene, &context, &shadow);
         return shadow.tfar < 0.f ? 0.f : 1.f;
     }
+    const float distance = length(toLight);
+    Ray ray{origin, toLight / distance, 0.f, distance * kShadowShortening};
     float through = 1.f;
     SurfaceInteraction at;
     for (int layer = 0; layer < kMaximumMaskLayers; ++layer) {
@@ -154,6 +155,7 @@ float Scene::transmittance(const SurfaceInteraction& from, const EmitterSample& 
 
 Scene::EmitterChoice Scene::chooseEmitter(float u) const {
     if (parts_.emitters.empty()) return {};
+    if (parts_.emitters.size() == 1) return {parts_.emitters.front().get(), 1.f};
     const Distribution1D::Choice choice = choice_.sample(u);
     return {parts_.emitters[choice.index].get(), choice.probability};
 }

@@ -27,14 +27,15 @@ class Diffuse final : public Bsdf {
     }
 
     std::optional<BsdfSample> sample(const SurfaceInteraction& at, Vec3f wo, float, Vec2f u) const override {
-        if (wo.z <= 0.f) return std::nullopt;
-        BsdfSample result;
-        result.wi = squareToCosineHemisphere(u);
-        result.pdf = squareToCosineHemispherePdf(result.wi.z);
-        result.weight = reflectance_(at);
-        result.event = Event::reflect;
-        result.lobe = Lobe::diffuse;
-        if (!(result.pdf > 0.f) || isBlack(result.weight)) return std::nullopt;
+        std::optional<BsdfSample> result;  // returned everywhere, so that it is made in place
+        if (wo.z <= 0.f) return result;
+        BsdfSample& sample = result.emplace();
+        sample.wi = squareToCosineHemisphere(u);
+        sample.pdf = squareToCosineHemispherePdf(sample.wi.z);
+        sample.weight = reflectance_(at);
+        sample.event = Event::reflect;
+        sample.lobe = Lobe::diffuse;
+        if (!(sample.pdf > 0.f) || isBlack(sample.weight)) result.reset();
         return result;
     }
 

@@ -23,9 +23,10 @@ class TwoSided final : public Bsdf {
         return isFront(wo) ? front_->evalPdf(at, wo, wi) : back_->evalPdf(at, mirrored(wo), mirrored(wi));
     }
     std::optional<BsdfSample> sample(const SurfaceInteraction& at, Vec3f wo, float uLobe, Vec2f u) const override {
-        if (isFront(wo)) return front_->sample(at, wo, uLobe, u);
-        std::optional<BsdfSample> result = back_->sample(at, mirrored(wo), uLobe, u);
-        if (result) result->wi = mirrored(result->wi);
+        const bool front = isFront(wo);
+        std::optional<BsdfSample> result =
+            front ? front_->sample(at, wo, uLobe, u) : back_->sample(at, mirrored(wo), uLobe, u);
+        if (result && !front) result->wi.z = -result->wi.z;
         return result;
     }
 

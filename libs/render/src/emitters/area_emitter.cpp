@@ -8,12 +8,17 @@ AreaEmitter::AreaEmitter(const Shape& shape, std::shared_ptr<const Texture> radi
     : shape_(shape), radiance_(std::move(radiance)), mean_(radiance_->mean()), constant_(radiance_->isConstant()) {}
 
 std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
+    std::optional<EmitterSample> light;  // returned everywhere, so that it is made in place
     const auto point = shape_.sample(from, u);
-    if (!point) return std::nullopt;
-    if (dot(point->normal, point->direction) >= 0.f) return std::nullopt;  // seen from behind
+    if (!point || dot(point->normal, point->direction) >= 0.f) return light;  // seen from behind
+    EmitterSample& sample = light.emplace();
     // A shadow ray ends a little above the light, as it starts a little above the lit surface.
-    return EmitterSample{point->position + point->normal * point->positionError, point->direction, point->distance,
-                         constant_ ? mean_ : radiance_->eval(point->uv), point->pdf};
+    sample.position = point->position + point->normal * point->positionError;
+    sample.direction = point->direction;
+    sample.distance = point->distance;
+    sample.radiance = constant_ ? mean_ : radiance_->eval(point->uv);
+    sample.pdf = point->pdf;
+    return light;
 }
 
 float AreaEmitter::power() const { return kPi * shape_.area() * luminance(mean_); }

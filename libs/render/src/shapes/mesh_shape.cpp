@@ -18,9 +18,6 @@ double triangleArea(Vec3f a, Vec3f b, Vec3f c) {
     return 0.5 * length(cross(wide(b) - wide(a), wide(c) - wide(a)));
 }
 
-/// Texture coordinates of a mesh without any: the barycentric ones, as Mitsuba gives.
-constexpr Vec2f kCornerUvs[3] = {{0.f, 0.f}, {1.f, 0.f}, {0.f, 1.f}};
-
 }  // namespace
 
 MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
@@ -32,7 +29,7 @@ MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
         const Vec3f a = mesh_.positions[t[0]], b = mesh_.positions[t[1]], c = mesh_.positions[t[2]];
         area += triangleArea(a, b, c);
         const float largest = std::max(largestCoordinate(a), std::max(largestCoordinate(b), largestCoordinate(c)));
-        faces_.push_back({normalize(cross(b - a, c - a)), kRelativePositionError * largest});
+        faces_.push_back({a, b - a, c - a, normalize(cross(b - a, c - a)), kRelativePositionError * largest});
     }
     area_ = static_cast<float>(area);
 }
@@ -48,27 +45,24 @@ void MeshShape::prepareSampling() {
 }
 
 void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) const {
-    const Triangle& t = mesh_.triangles[hit.primitive];
-    const Vec3f a = mesh_.positions[t[0]], b = mesh_.positions[t[1]], c = mesh_.positions[t[2]];
+    const Face& face = faces_[hit.primitive];
     const float w = 1.f - hit.u - hit.v;
     // From the vertices, not along the ray: the error then does not grow with the distance to the ray's origin.
-    at.position = a * w + b * hit.u + c * hit.v;
-    const Face& face = faces_[hit.primitive];
+    at.position = face.at(hit.u, hit.v);
     at.geometricNormal = face.normal;
     at.positionError = face.positionError;
     at.face = static_cast<std::int32_t>(hit.primitive);
 
-    Vec3f normal = at.geometricNormal;
+    Vec3f normal = face.normal;
+    const Triangle& t = mesh_.triangles[hit.primitive];
     if (!mesh_.normals.empty()) {
         const Vec3f smooth = mesh_.normals[t[0]] * w + mesh_.normals[t[1]] * hit.u + mesh_.normals[t[2]] * hit.v;
         if (dot(smooth, smooth) > 0.f) normal = normalize(smooth);
     }
     at.shading = Frame::fromNormal(normal);
-    const bool mapped = !mesh_.uvs.empty();
-    const Vec2f uvA = mapped ? mesh_.uvs[t[0]] : kCornerUvs[0];
-    const Vec2f uvB = mapped ? mesh_.uvs[t[1]] : kCornerUvs[1];
-    const Vec2f uvC = mapped ? mesh_.uvs[t[2]] : kCornerUvs[2];
-    at.uv = uvA * w + uvB * hit.u + uvC * hit.v;
+    // Without texture coordinates the barycentric ones, as Mitsuba gives.
+    at.uv = {hit.u, hit.v};
+    if (!mesh_.uvs.empty()) at.uv = mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * hit.u + mesh_.uvs[t[2]] * hit.v;
 }
 
 std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
@@ -76,19 +70,21 @@ std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
     // The triangle takes what it needs of u.x and the point gets the remainder: using u.x twice as it is would correlate
     // triangle and point (the bug of the paper's Figure 9).
     const Distribution1D::Choice chosen = triangles_.sample(u.x);
-    const Triangle& t = mesh_.triangles[chosen.index];
-    const Vec3f a = mesh_.positions[t[0]], b = mesh_.positions[t[1]], c = mesh_.positions[t[2]];
+    const Face& face = faces_[chosen.index];
     const Vec2f bary = squareToUniformTriangle({chosen.remainder, u.y});
-    const float w = 1.f - bary.x - bary.y;
 
-    ShapeSample sample;
-    sample.position = a * w + b * bary.x + c * bary.y;
-    sample.normal = faces_[chosen.index].normal;
-    sample.positionError = faces_[chosen.index].positionError;
-    const bool mapped = !mesh_.uvs.empty();
-    sample.uv = mapped ? mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y : bary;
-    if (!completeAreaSample(from, area_, sample)) return std::nullopt;
-    return sample;
+    std::optional<ShapeSample> result;  // returned everywhere, so that it is made in place
+    ShapeSample& sample = result.emplace();
+    sample.position = face.at(bary.x, bary.y);
+    sample.normal = face.normal;
+    sample.positionError = face.positionError;
+    sample.uv = bary;
+    if (!mesh_.uvs.empty()) {
+        const Triangle& t = mesh_.triangles[chosen.index];
+        sample.uv = mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;
+    }
+    if (!completeAreaSample(from, area_, sample)) result.reset();
+    return result;
 }
 
 float MeshShape::pdf(Vec3f, Vec3f direction, float distance, const SurfaceInteraction& at) const {

@@ -25,10 +25,13 @@ class MeshShape final : public Shape {
     void prepareSampling();
 
   private:
-    /// What every hit needs of a flat triangle.
-    struct Face {
+    /// What every hit needs of a triangle, in one cache line.
+    struct alignas(64) Face {
+        Vec3f corner;           ///< first vertex
+        Vec3f edgeU, edgeV;     ///< from there to the second and the third vertex
         Vec3f normal;           ///< unit
         float positionError;
+        Vec3f at(float u, float v) const { return corner + edgeU * u + edgeV * v; }
     };
     TriangleMesh mesh_;
     std::vector<Face> faces_;   ///< one per triangle

@@ -40,11 +40,11 @@ struct ShapeSample {
 inline bool completeAreaSample(Vec3f from, float area, ShapeSample& sample) {
     const Vec3f toPoint = sample.position - from;
     const float squared = dot(toPoint, toPoint);
+    const float projected = std::abs(dot(sample.normal, toPoint));  // distance times cosine
     sample.distance = std::sqrt(squared);
-    sample.direction = toPoint / sample.distance;
-    const float cosine = std::abs(dot(sample.normal, sample.direction));
-    sample.pdf = squared / (cosine * area);
-    return squared > 0.f && cosine > 0.f;
+    sample.direction = toPoint * (1.f / sample.distance);
+    sample.pdf = squared * sample.distance / (projected * area);
+    return squared > 0.f && projected > 0.f;
 }
 
 /// Surface with one material, in world space. Immutable once it is part of a scene; safe from all threads.
