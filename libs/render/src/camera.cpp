@@ -39,6 +39,10 @@ RayCamera::RayCamera(const CameraSettings& settings, std::uint32_t width, std::u
     }
     tangentX_ = static_cast<float>(x);
     tangentY_ = static_cast<float>(x / aspect);
+    position_ = settings.toWorld.point({});
+    left_ = settings.toWorld.vector({1, 0, 0});
+    up_ = settings.toWorld.vector({0, 1, 0});
+    towards_ = settings.toWorld.vector({0, 0, 1});
 }
 
 Ray RayCamera::ray(Vec2f film, Vec2f lens) const {
@@ -46,24 +50,24 @@ Ray RayCamera::ray(Vec2f film, Vec2f lens) const {
 }
 
 Ray RayCamera::perspectiveRay(Vec2f film, Vec2f lens) const {
-    const Vec3f direction{(1.f - 2.f * film.x / width_) * tangentX_, (1.f - 2.f * film.y / height_) * tangentY_, 1.f};
-    Vec3f origin, towards = direction;
+    Vec2f slope{(1.f - 2.f * film.x / width_) * tangentX_, (1.f - 2.f * film.y / height_) * tangentY_};
+    Vec3f origin = position_;
     if (hasLens()) {
-        const Vec2f disk = squareToConcentricDisk(lens);
-        origin = {disk.x * settings_.apertureRadius, disk.y * settings_.apertureRadius, 0.f};
-        towards = (direction * settings_.focusDistance - origin) / settings_.focusDistance;
+        const Vec2f aperture = squareToConcentricDisk(lens) * settings_.apertureRadius;
+        origin += left_ * aperture.x + up_ * aperture.y;
+        slope = slope - aperture * (1.f / settings_.focusDistance);
     }
-    // `towards` has z = 1, so that multiples of it are distances along the view.
-    const Vec3f world = settings_.toWorld.vector(towards);
+    // Per unit of distance along the view, in which the clipping planes are given.
+    const Vec3f world = left_ * slope.x + up_ * slope.y + towards_;
     const float scale = length(world);
-    return {settings_.toWorld.point(origin), world / scale, settings_.nearClip * scale, settings_.farClip * scale};
+    return {origin, world * (1.f / scale), settings_.nearClip * scale, settings_.farClip * scale};
 }
 
 Ray RayCamera::sphericalRay(Vec2f film) const {
     const float phi = 2.f * kPi * film.x / width_;
     const float theta = kPi * film.y / height_;
     const Vec3f direction{std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta)};
-    return {settings_.toWorld.point({}), normalize(settings_.toWorld.vector(direction))};
+    return {position_, normalize(settings_.toWorld.vector(direction))};
 }
 
 emca::Camera RayCamera::view() const {

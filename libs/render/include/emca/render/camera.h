@@ -48,6 +48,8 @@ class RayCamera {
     CameraSettings settings_;
     float width_, height_;
     float tangentX_, tangentY_;  ///< half extents of the image plane at distance 1
+    Vec3f position_;                 ///< world space
+    Vec3f left_, up_, towards_;      ///< the camera's axes in world space, as long as `toWorld` makes them
 };
 
 }  // namespace emca::render
