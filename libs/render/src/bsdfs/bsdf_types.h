@@ -21,6 +21,9 @@ std::shared_ptr<Bsdf> makeRoughPlastic(PropertyReader& read, FactoryContext& con
 std::shared_ptr<Bsdf> makeTwoSided(PropertyReader& read, FactoryContext& context);
 std::shared_ptr<Bsdf> makeMask(PropertyReader& read, FactoryContext& context);
 
+/// The same material on both sides without a detour at each call, if `front` is a diffuse one; null otherwise.
+std::shared_ptr<Bsdf> makeTwoSidedDiffuse(const Bsdf& front);
+
 /// Diffuse without a scene file.
 std::shared_ptr<Bsdf> makeDiffuse(Color reflectance);
 

@@ -72,7 +72,8 @@ std::shared_ptr<Bsdf> makeTwoSided(PropertyReader& read, FactoryContext& context
     } else if (nested.size() > 1) {
         back = makeBsdf(*nested[1], context);
     }
-    auto result = std::make_shared<TwoSided>(front, back);
+    std::shared_ptr<Bsdf> result = back == front ? makeTwoSidedDiffuse(*front) : nullptr;
+    if (!result) result = std::make_shared<TwoSided>(front, back);
     if (read.node().id.empty() && !nested[0]->id.empty()) result->setName(front->name());
     return result;
 }
