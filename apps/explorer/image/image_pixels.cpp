@@ -9,6 +9,8 @@ namespace {
 
 /// Converted at once, within a frame; larger images go to other threads.
 constexpr std::size_t kQuickPixels = 1u << 20;
+/// Between two pictures of a preview.
+constexpr qint64 kRestMilliseconds = 200;
 
 /// Writes RGBA rows into memory that was allocated before: QImage's own accessors detach and belong to the GUI thread.
 void convertInto(const Image& image, const ImageStyle& style, std::span<std::uint8_t> rgba) {
@@ -51,7 +53,12 @@ InvalidPixels findInvalid(const Image& image) {
     return found;
 }
 
-ImagePixels::ImagePixels(QObject* parent) : QObject(parent) { pool_.setMaxThreadCount(1); }
+ImagePixels::ImagePixels(QObject* parent) : QObject(parent) {
+    pool_.setMaxThreadCount(1);
+    clock_.start();
+    later_.setSingleShot(true);
+    connect(&later_, &QTimer::timeout, this, &ImagePixels::refreshNow);
+}
 
 ImagePixels::~ImagePixels() {
     pool_.clear();
@@ -78,10 +85,19 @@ void ImagePixels::set(std::shared_ptr<const RenderedImage> image, const ImageSty
 }
 
 void ImagePixels::refresh() {
+    if (later_.isActive()) return;
+    const qint64 wait = restUntil_ - clock_.elapsed();
+    if (wait > 0) later_.start(static_cast<int>(wait));
+    else refreshNow();
+}
+
+void ImagePixels::refreshNow() {
     if (!image_ || image_->color.empty()) return;
+    const qint64 start = clock_.elapsed();
     ++generation_;
-    invalid_ = findInvalid(image_->color);
     convertHere();
+    // Painting costs more than converting: with software GL every repaint composes the whole window anew.
+    restUntil_ = clock_.elapsed() + kRestMilliseconds + 4 * (clock_.elapsed() - start);
 }
 
 void ImagePixels::convertHere() {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QImage>
 #include <QObject>
 #include <QThreadPool>
+#include <QTimer>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -45,7 +47,8 @@ class ImagePixels : public QObject {
 
     /// \param image  null for none
     void set(std::shared_ptr<const RenderedImage> image, const ImageStyle& style);
-    /// The pixels of a preview changed in place.
+    /// The pixels of a preview changed in place. A few pictures a second are made of them: what comes sooner is shown a
+    /// little later. Invalid pixels are counted when the render is complete.
     void refresh();
     void setStyle(const ImageStyle& style) { set(image_, style); }
 
@@ -63,6 +66,7 @@ class ImagePixels : public QObject {
     void pictureChanged();
 
   private:
+    void refreshNow();
     void convertHere();
     void convertElsewhere();
     std::shared_ptr<const RenderedImage> image_;
@@ -70,6 +74,9 @@ class ImagePixels : public QObject {
     InvalidPixels invalid_;
     QImage picture_;
     std::vector<QImage> reduced_;
+    QTimer later_;
+    QElapsedTimer clock_;
+    qint64 restUntil_ = 0;         ///< of clock_, in milliseconds
     QThreadPool pool_;
     std::uint64_t generation_ = 0;
     int running_ = 0;

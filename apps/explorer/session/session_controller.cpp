@@ -1,6 +1,7 @@
 #include "session/session_controller.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/qt_compat.h"
 #include "emca/analysis/format.h"
@@ -8,7 +9,8 @@
 namespace emca::explorer {
 namespace {
 
-constexpr int kProgressMilliseconds = 40;
+/// While a person waits for a pixel, and during long work: tiles and progress then share their repaint.
+constexpr int kTraceMilliseconds = 60, kRenderMilliseconds = 300;
 constexpr int kRetryMilliseconds[] = {200, 400, 800, 1500, 3000, 5000};
 
 bool sameScene(const client::ServerInfo& a, const client::ServerInfo& b) {
@@ -32,10 +34,14 @@ SessionController::SessionController(client::Dataset& dataset, client::Selection
           if (parts & client::SelectionPart::pixel) ensureTraced(false);
       }) {
     qRegisterMetaType<FailedTask>();
-    progress_.setInterval(kProgressMilliseconds);
     connect(&progress_, &QTimer::timeout, this, [this] {
         drainPreview();
         if (!render_ && !trace_ && !scene_) progress_.stop();
+        else progress_.setInterval(trace_ ? kTraceMilliseconds : kRenderMilliseconds);
+        // Each repaint of the status bar costs a frame of the whole window where GL is software.
+        const double shown = std::round(renderFraction() * 100) + 1e3 * std::round(sceneFraction() * 20);
+        if (shown == shownProgress_ && !trace_ && progress_.isActive()) return;
+        shownProgress_ = shown;
         emit activityChanged();
     });
     retry_.setSingleShot(true);
@@ -58,7 +64,7 @@ void SessionController::setLink(LinkState link) {
 void SessionController::fail(FailedTask task, const Error& error) { emit failed(task, toQString(error.message)); }
 
 void SessionController::begin() {
-    if (!progress_.isActive()) progress_.start();
+    progress_.start(trace_ ? kTraceMilliseconds : kRenderMilliseconds);
     emit activityChanged();
 }
 

@@ -120,6 +120,7 @@ class SessionController : public QObject {
     int renderCount_ = 0, filesBeingRead_ = 0;
     std::optional<Pixel> tracing_;
     QTimer progress_;
+    double shownProgress_ = -1;         ///< what the last activityChanged was about
     QString lastRequest_;
 
     struct Known {
