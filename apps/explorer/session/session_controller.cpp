@@ -163,10 +163,7 @@ void SessionController::adopt(Opened opened) {
     const client::ImageEntry* image = dataset_.currentImage();
     const bool fits = image && image->image && image->image->color.width() == opened.info.width &&
                       image->image->color.height() == opened.info.height;
-    if (renderOnConnect_ && !fits) {
-        client::RenderOptions options = renderOptions_;
-        render(options);
-    }
+    if (renderOnConnect_ && !fits) render(client::RenderOptions(renderOptions_));
     loadScene();
     ensureTraced(true);
 }

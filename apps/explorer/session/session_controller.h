@@ -35,6 +35,8 @@ class SessionController : public QObject {
     const client::Address& address() const { return address_; }
     /// Render as soon as a renderer is connected and no image of its size is there.
     void setRenderOnConnect(bool render) { renderOnConnect_ = render; }
+    /// What that render is made with.
+    void setRenderOptions(const client::RenderOptions& options) { renderOptions_ = options; }
 
     bool isRendering() const { return render_ != nullptr; }
     bool isTracing() const { return trace_ != nullptr; }

@@ -196,6 +196,9 @@ void MainWindow::dropEvent(QDropEvent* event) {
 void MainWindow::connectTo(const client::Address& address, const QString& token) {
     connectPanel_->remember(address);
     toast_->clear();
+    client::RenderOptions options;
+    if (samplesChosen_) options.samplesPerPixel = static_cast<std::uint32_t>(samples_->value());
+    session_.setRenderOptions(options);
     session_.connectTo(address, token);
 }
 

@@ -73,6 +73,15 @@ TEST_F(MainWindowTest, AClickInTheImageReachesEveryView) {
     EXPECT_EQ(badge->text(), "replay exact");
 }
 
+TEST_F(MainWindowTest, ChosenSamplesHoldForTheRenderThatConnectingStarts) {
+    Program program(settingsFile());
+    program.window->setSamples(2);
+    connectTo(program);
+    EXPECT_EQ(program.dataset.currentImage()->samplesPerPixel, 2u);
+    program.selection.setPixel(Pixel{1, 1});
+    ASSERT_TRUE(waitFor([&] { return program.dataset.paths().pathCount() == 2; }));
+}
+
 TEST_F(MainWindowTest, KeysStepThroughPathsAndVertices) {
     Program program(settingsFile());
     connectTo(program);
