@@ -29,7 +29,7 @@ const std::map<std::string, Rule>& rules() {
         {"libs/imageio", {{"core", "imageio"}, {"OpenImageIO/"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
         {"libs/render", {{"core", "recorder", "imageio", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h", "OpenImageIO/"}}},
-        {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h"}}},
+        {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},
         {"apps/cli", {{"core", "client", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
         {"apps/explorer", {{"core", "client", "analysis", "imageio"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
         {"examples", {{"core", "recorder", "server", "client"}, {}}},

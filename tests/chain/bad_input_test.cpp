@@ -96,7 +96,7 @@ class BadRequests : public testing::Test {
 ServingProcess* BadRequests::server_ = nullptr;
 
 TEST_F(BadRequests, APixelOutsideTheImage) {
-    expectSentence(run({EMCA_CLI, "pixel", server_->address(), "32", "0"}), 2, {"32"});
+    expectSentence(run({EMCA_CLI, "pixel", server_->address(), "32", "0"}), 3, {"32"});
     expectSentence(run({EMCA_CLI, "pixel", server_->address(), "-1", "0"}), 2, {"-1"});
 }
 

@@ -99,13 +99,12 @@ TEST(Chain, TheCauseOfAFireflyIsInTheRecordedData) {
     ASSERT_NE(outlier, nullptr);
     EXPECT_GT(most, 100 * rest) << "one path carries the pixel";
     const Json& vertices = outlier->at("vertices");
-    EXPECT_GT(luminanceOf(vertices.back().at("emission")), 10000.0) << "it ends on the sun";
-    bool glass = false;
+    bool glass = false, sun = false;
     for (const Json& vertex : vertices) {
-        const Json& data = vertex.at("data");
-        if (data.value("material", "") == "tinted glass") glass = true;
+        if (vertex.at("data").value("material", "") == "tinted glass") glass = true;
+        if (!vertex.at("emission").is_null() && luminanceOf(vertex.at("emission")) > 10000) sun = glass;
     }
-    EXPECT_TRUE(glass);
+    EXPECT_TRUE(sun) << "it hits the sun after the glass";
 }
 
 TEST(Chain, TheExampleRendererIsServedAndReplayedExactly) {
