@@ -73,7 +73,7 @@ QVariant OutlierModel::headerData(int section, Qt::Orientation orientation, int 
         case kValue:
             return quantity_;
         case kDeviations:
-            return QStringLiteral("from the mean");
+            return QStringLiteral("deviation");
         default:
             return {};
     }

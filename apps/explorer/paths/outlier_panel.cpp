@@ -80,6 +80,7 @@ void OutlierPanel::build() {
     table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setResizeContentsPrecision(64);  // rows that are measured
     table_->horizontalHeader()->setSectionResizeMode(OutlierModel::kPath, QHeaderView::Stretch);
+    table_->horizontalHeader()->setMinimumSectionSize(fontMetrics().horizontalAdvance(QStringLiteral("Path 1,023")));
 
     auto* top = new QHBoxLayout;
     top->setSpacing(Spacing::small);
