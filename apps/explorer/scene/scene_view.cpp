@@ -23,6 +23,7 @@ constexpr double kSlowFrame = 0.06;      ///< seconds; slower scenes use their s
 constexpr int kSettleMilliseconds = 220; ///< after the last move the full scene comes back
 constexpr double kMargin = 0.1;          ///< of the view around what a flight brings into view
 constexpr double kMinimumExtent = 0.3;   ///< paths smaller than this fraction of the view are worth a flight
+constexpr float kContext = 0.16f;  ///< radius around the first vertex that stays in view, of its distance to the eye
 
 std::string plain(const QString& text) { return text.toStdString(); }
 
@@ -268,6 +269,16 @@ std::vector<Vec3f> SceneView::Impl::contextOf(Index path, std::optional<Index> v
     for (Index v = range.first; v < range.last; ++v) {
         const Vec3f p = geometry.points[v];
         if (v == vertex || (!paths.isEnvironment(v) && length(p - scene.centre()) < reach)) points.push_back(p);
+    }
+    // A short path alone would fill the view and show nothing of where it is: keep a part of what its camera saw.
+    const std::optional<Vec3f> eye = paths.origin(path);
+    if (eye && !points.empty() && isFinite(*eye) && isFinite(points.front())) {
+        const Vec3f first = points.front();
+        const float around = kContext * length(first - *eye);
+        for (const Vec3f axis : {Vec3f{around, 0, 0}, Vec3f{0, around, 0}, Vec3f{0, 0, around}}) {
+            points.push_back(first + axis);
+            points.push_back(first - axis);
+        }
     }
     return points;
 }
