@@ -143,6 +143,11 @@ class Assembler {
             placeVertices(std::span(places_).subspan(begin, end - begin));
             firstVertex.push_back(static_cast<Index>(depths_.size()));
         }
+        // What no path has is left out as a whole.
+        std::uint8_t used = 0;
+        for (const std::uint8_t f : flags) used |= f;
+        if (!(used & PathFlag::hasOrigin)) origins.clear();
+        if (!(used & PathFlag::hasEstimate)) estimates.clear();
         out_.pixels = std::move(pixels);
         out_.samples = std::move(samples);
         out_.parts = std::move(parts);

@@ -173,6 +173,8 @@ TEST(Recording, OnlyTheColumnsAskedFor) {
     EXPECT_TRUE(paths->position(0));
     EXPECT_FALSE(paths->origin(0));
     EXPECT_FALSE(paths->estimate(0));
+    EXPECT_TRUE(paths->columns().origins.empty());
+    EXPECT_TRUE(paths->columns().estimates.empty());
 }
 
 TEST(Recording, TheBudgetHoldsAndWhatDidNotFitIsCounted) {
