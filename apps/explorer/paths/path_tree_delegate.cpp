@@ -1,6 +1,5 @@
 #include "paths/path_tree_delegate.h"
 
-#include <QApplication>
 #include <QPainter>
 
 #include "base/theme.h"
@@ -23,20 +22,6 @@ int drawText(QPainter& painter, const QRect& rect, const QString& text, const QF
     return rect.left() + metrics.horizontalAdvance(shown);
 }
 
-QColor toneColor(Tone tone, const ThemeColors& c, const QColor& normal) {
-    switch (tone) {
-        case Tone::warning:
-            return c.warning;
-        case Tone::visible:
-            return c.nextEventVisible;
-        case Tone::occluded:
-            return c.nextEventOccluded;
-        case Tone::normal:
-            break;
-    }
-    return normal;
-}
-
 }  // namespace
 
 PathTreeDelegate::PathTreeDelegate(Theme& theme, QObject* parent)
@@ -47,10 +32,7 @@ PathTreeDelegate::PathTreeDelegate(Theme& theme, QObject* parent)
 QSize PathTreeDelegate::sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const { return {80, Spacing::row}; }
 
 void PathTreeDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
-    QStyleOptionViewItem background = option;
-    background.state &= ~QStyle::State_HasFocus;
-    const QStyle* style = option.widget ? option.widget->style() : QApplication::style();
-    style->drawPrimitive(QStyle::PE_PanelItemViewItem, &background, painter, option.widget);
+    paintRowBackground(*painter, option);
 
     painter->save();
     const QRect rect = option.rect.adjusted(Spacing::tiny, 0, -Spacing::tiny, 0);

@@ -1,7 +1,9 @@
 #include "paths/value_cells.h"
 
+#include <QApplication>
 #include <QFontMetrics>
 #include <QPainter>
+#include <QStyleOptionViewItem>
 
 #include "base/theme.h"
 #include "emca/analysis/format.h"
@@ -30,6 +32,27 @@ void paintNumbers(QPainter& painter, const QRect& rect, const QStringList& numbe
         painter.drawText(QRect(rect.left() + i * cell - kGap, rect.top(), cell, rect.height()),
                          Qt::AlignRight | Qt::AlignVCenter, numbers[i]);
     }
+}
+
+QColor toneColor(Tone tone, const ThemeColors& c, const QColor& normal) {
+    switch (tone) {
+        case Tone::warning:
+            return c.warning;
+        case Tone::visible:
+            return c.nextEventVisible;
+        case Tone::occluded:
+            return c.nextEventOccluded;
+        case Tone::normal:
+            break;
+    }
+    return normal;
+}
+
+void paintRowBackground(QPainter& painter, const QStyleOptionViewItem& option) {
+    QStyleOptionViewItem background = option;
+    background.state &= ~QStyle::State_HasFocus;
+    const QStyle* style = option.widget ? option.widget->style() : QApplication::style();
+    style->drawPrimitive(QStyle::PE_PanelItemViewItem, &background, &painter, option.widget);
 }
 
 }  // namespace emca::explorer

@@ -1,6 +1,5 @@
 #include "paths/vertex_table_delegate.h"
 
-#include <QApplication>
 #include <QPainter>
 
 #include "base/theme.h"
@@ -13,20 +12,6 @@ namespace {
 
 constexpr int kSwatchWidth = 36;
 
-QColor toneColor(Tone tone, const ThemeColors& c, const QColor& normal) {
-    switch (tone) {
-        case Tone::warning:
-            return c.warning;
-        case Tone::visible:
-            return c.nextEventVisible;
-        case Tone::occluded:
-            return c.nextEventOccluded;
-        case Tone::normal:
-            break;
-    }
-    return normal;
-}
-
 }  // namespace
 
 VertexTableDelegate::VertexTableDelegate(Theme& theme, QObject* parent)
@@ -37,10 +22,7 @@ VertexTableDelegate::VertexTableDelegate(Theme& theme, QObject* parent)
 void VertexTableDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
     const auto& model = static_cast<const VertexTableModel&>(*index.model());
     const ThemeColors& c = theme_.colors();
-    QStyleOptionViewItem background = option;
-    background.state &= ~QStyle::State_HasFocus;
-    const QStyle* style = option.widget ? option.widget->style() : QApplication::style();
-    style->drawPrimitive(QStyle::PE_PanelItemViewItem, &background, painter, option.widget);
+    paintRowBackground(*painter, option);
     painter->save();
     QRect rect = option.rect.adjusted(Spacing::small, 0, -Spacing::tiny, 0);
     const auto text = [&](const QRect& room, const QString& string, const QFont& font, const QColor& color) {
