@@ -1,0 +1,194 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "emca/core/color.h"
+#include "emca/core/mesh.h"
+#include "emca/core/result.h"
+#include "emca/core/surface_field.h"
+
+namespace emca {
+
+namespace detail {
+struct SurfaceCursorState;
+}
+
+/// The geometry of one mesh, as the renderer holds it: world space, scene units. Must outlive the recorder.
+struct SurfaceMeshView {
+    std::span<const Vec3f> positions;
+    std::span<const Triangle> triangles;
+};
+
+struct SurfaceOptions {
+    std::size_t budgetBytes = 256u << 20;     ///< for everything a recorder allocates; beyond it, data becomes coarser
+    std::uint32_t samplesPerDivision = 256;   ///< points on a face before it divides into four; at least 1
+    /// No face divides whose children would have less area than a square with this edge, in scene units. Negative: 1/8192
+    /// of the diagonal of the scene.
+    float minimumEdge = -1;
+    std::uint32_t maximumLevel = 12;          ///< divisions below a face of the scene, at most kMaxSurfaceLevel
+};
+
+/// A place on a surface. A small value; belongs to the thread that located it, and must not be used after finish().
+class SurfacePoint {
+  public:
+    /// No place: values added there are ignored.
+    SurfacePoint() = default;
+
+  private:
+    friend class SurfaceLayer;
+    friend class SurfaceCursor;
+    friend struct detail::SurfaceCursorState;
+    detail::SurfaceCursorState* cursor_ = nullptr;
+    std::uint32_t* record_ = nullptr;   ///< where values go while the block it is part of is still open
+    std::uint32_t serial_ = 0, shard_ = 0;
+    std::uint32_t face_ = 0, u_ = 0, v_ = 0;  ///< for values that come later than that
+};
+
+/// Handle to a layer of a recorder, a plain value. The default one belongs to no layer and ignores what is added, so that
+/// a renderer may ask for nothing and keep its calls.
+class SurfaceLayer {
+  public:
+    SurfaceLayer() = default;
+    explicit operator bool() const { return recorder_ != nullptr; }
+
+    /// Adds one sample at a place. Every call is a sample of its own, also at the same place. NaN and infinity are
+    /// counted as invalid and not added. A colour given to a scalar layer adds its luminance, a number given to a colour
+    /// layer adds grey. Cost: a few stores into memory of this thread, if it follows locate() within about a hundred
+    /// points; else about as much as locate().
+    void add(const SurfacePoint& at, float value) const;
+    void add(const SurfacePoint& at, Color value) const;
+    /// Adds 1: for densities of events.
+    void add(const SurfacePoint& at) const { add(at, 1.f); }
+
+  private:
+    friend class SurfaceRecorder;
+    friend struct detail::SurfaceCursorState;
+    const void* recorder_ = nullptr;
+    std::uint16_t index_ = 0;     ///< place in the list of layers
+    std::uint16_t maskWord_ = 0;  ///< of a record: the word that says which values are there, and the bit in it
+    std::uint16_t value_ = 0;     ///< of a record: the first word of the value
+    std::uint8_t bit_ = 0, channels_ = 1;
+};
+
+/// One thread's way into a recorder. Never shared between threads.
+class SurfaceCursor {
+  public:
+    /// A point on triangle `face` of mesh `mesh`, counted once; the count of points is what drives the subdivision. Call
+    /// once per point, then add to any number of layers. A point of an intersection, of a light that was sampled, of
+    /// anything: (mesh, face, position).
+    ///
+    /// \param position  world space, taken to the nearest point of the triangle. Not finite, or no such mesh or face:
+    ///                  counted as invalid, and the returned place ignores what is added. A triangle without area keeps
+    ///                  its points at its first vertex.
+    SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec3f position);
+    /// The same with barycentric coordinates, weights of the second and third vertex: faster, no vertex is read.
+    SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics);
+
+  private:
+    friend class SurfaceRecorder;
+    friend struct detail::SurfaceCursorState;
+    SurfaceCursor() = default;
+    detail::SurfaceCursorState* state_ = nullptr;
+};
+
+/// Collects 3D data on surfaces while a renderer runs: named layers, all on one adaptive 1-to-4 subdivision of the meshes.
+///
+///     SurfaceRecorder recorder(meshes);
+///     const SurfaceLayer density = *recorder.addLayer({"intersection density", LayerKind::density, "1/m^2", "…"});
+///     …                                                      // in every thread, per path or tile:
+///     SurfaceCursor& surface = recorder.cursor();
+///     const SurfacePoint at = surface.locate(mesh, face, position);
+///     density.add(at);
+///     …                                                      // when all threads are done:
+///     SurfaceField field = recorder.finish();
+///
+/// Threads write what they add to blocks of their own. A face belongs to one of many shards; a full block is handed to
+/// its shard, and whichever thread finds the shard free applies all blocks waiting there, while the others go on. So no
+/// thread waits for another, nodes are updated without atomic operations, and counts are exact.
+///
+/// Memory: nothing before the first layer; a face's storage begins with its first point. Beyond the budget, faces do not
+/// divide any more, and faces without storage share bins with their neighbours in the mesh (counted as coarse); no
+/// sample is lost. Every thread that records at the same time beyond twice the machine's number may exceed the budget by
+/// its blocks, at most 1/256 of it.
+///
+/// Deterministic: counts and, in single-threaded use, everything. With several threads sums are equal within rounding,
+/// and the subdivision may differ. Source: Ruppert et al., "EMCA", VMV 2021, section 4.1.
+class SurfaceRecorder {
+  public:
+    /// The meshes' vertices and triangles must outlive the recorder. Triangles with indices beyond their mesh's vertices
+    /// count as without area.
+    explicit SurfaceRecorder(std::span<const Mesh> meshes, SurfaceOptions options = {});
+    explicit SurfaceRecorder(std::vector<SurfaceMeshView> meshes, SurfaceOptions options = {});
+    ~SurfaceRecorder();
+    SurfaceRecorder(const SurfaceRecorder&) = delete;
+    SurfaceRecorder& operator=(const SurfaceRecorder&) = delete;
+
+    /// Before any thread calls cursor(). Errors: invalidArgument (name empty or taken, called after cursor()), tooLarge
+    /// (more layers than fit a record: about 4000).
+    Result<SurfaceLayer> addLayer(LayerDescription description);
+
+    /// This thread's cursor: fetch it once per path or tile. Valid until the thread or the recorder ends.
+    SurfaceCursor& cursor();
+
+    /// All that was added so far, after post-processing. No thread may be adding meanwhile; recording may go on
+    /// afterwards, with points located anew, and finish() be called again.
+    ///
+    /// Divided faces hand their data down by density (paper, section 4.1). Faces of a sampled mesh without data get that
+    /// of their neighbours across edges (also where vertices are duplicated): mean layers all the way to the next data;
+    /// densities only as far as missing samples can be chance, keeping the total. Meshes that were never sampled have no
+    /// values. Throws nothing; memory for the result comes on top of the budget.
+    SurfaceField finish();
+
+    /// Complete after finish(), else as far as blocks have been applied. `bytesUsed` is always current.
+    SurfaceCounts counts() const;
+    const std::vector<LayerDescription>& layers() const;
+
+  private:
+    struct Impl;
+    std::shared_ptr<Impl> impl_;
+};
+
+namespace detail {
+
+/// What the inline part of SurfaceLayer::add needs of a thread's cursor.
+struct SurfaceCursorState {
+    const std::uint32_t* serials = nullptr;  ///< per shard: number of the block that is open
+    /// Adds a value whose block is gone, or whose place in the record is taken, or which is not finite.
+    static void addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value);
+};
+
+constexpr bool finiteBits(float f) { return (std::bit_cast<std::uint32_t>(f) & 0x7f800000u) != 0x7f800000u; }
+
+}  // namespace detail
+
+inline void SurfaceLayer::add(const SurfacePoint& at, float value) const {
+    if (!recorder_ || !at.cursor_) return;
+    if (at.cursor_->serials[at.shard_] == at.serial_ && channels_ == 1 && detail::finiteBits(value) &&
+        !(at.record_[maskWord_] >> bit_ & 1)) [[likely]] {
+        at.record_[maskWord_] |= 1u << bit_;
+        at.record_[value_] = std::bit_cast<std::uint32_t>(value);
+        return;
+    }
+    detail::SurfaceCursorState::addLate(at, *this, Color(value));
+}
+
+inline void SurfaceLayer::add(const SurfacePoint& at, Color value) const {
+    if (!recorder_ || !at.cursor_) return;
+    if (channels_ == 1) return add(at, luminance(value));
+    if (at.cursor_->serials[at.shard_] == at.serial_ && isFinite(value) && !(at.record_[maskWord_] >> bit_ & 1))
+        [[likely]] {
+        at.record_[maskWord_] |= 1u << bit_;
+        at.record_[value_] = std::bit_cast<std::uint32_t>(value.r);
+        at.record_[value_ + 1] = std::bit_cast<std::uint32_t>(value.g);
+        at.record_[value_ + 2] = std::bit_cast<std::uint32_t>(value.b);
+        return;
+    }
+    detail::SurfaceCursorState::addLate(at, *this, value);
+}
+
+}  // namespace emca
