@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -55,6 +56,7 @@ struct RefinedMesh {
     std::vector<Vec3f> positions;          ///< those of the base mesh first, then midpoints, shared between faces
     std::vector<Triangle> triangles;       ///< same orientation as their base faces
     std::vector<std::uint32_t> baseFace;   ///< per refined face: the triangle of the base mesh that it is a part of
+    std::vector<std::array<std::uint32_t, 2>> midpointOf;  ///< per position after those of the base mesh: its edge
 };
 
 /// Rebuilds the refined triangles. Neighbours of equal level share vertices if their base faces do.
@@ -66,7 +68,7 @@ Result<RefinedMesh> refine(const Mesh& mesh, const SurfaceSubdivision& subdivisi
 /// Number of refined faces of a mesh with so many triangles. Errors as refine().
 Result<std::uint32_t> refinedFaceCount(std::size_t baseFaces, const SurfaceSubdivision& subdivision);
 
-/// Finds the refined face at a place of a base face: for the value under the cursor. Keeps 12 bytes per base face.
+/// Finds the refined face at a place of a base face: for the value under the cursor. Keeps 16 bytes per base face.
 class SurfaceLocator {
   public:
     /// Errors as refine().

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string_view>
 
@@ -10,11 +12,36 @@
 #include "emca/core/pixel.h"
 #include "emca/core/vector.h"
 #include "emca/recorder/key.h"
+#include "emca/recorder/recordable.h"
 
 /// What stands behind the inline calls of PathRecorder and of the handles. Renderers do not call it.
 namespace emca::detail {
 
+/// First two bytes of every record of a thread's log: which quantity follows.
+struct LogTag {
+    enum : std::uint16_t {
+        ignored = 0,  ///< of columns that nobody asked for; never written
+        cameraVertex, lightVertex, revisit, environment,
+        position, nextEvent, estimate, emission, surface, event, contribution, splat,
+        wide,         ///< a user column whose number needs four bytes, which follow
+        firstUser,    ///< the user column of number 0; the others follow
+        end = 0xffff,
+    };
+};
+
+struct SurfaceValue { std::int32_t mesh, face; };
+struct EventValue { std::uint32_t label; Event event; Lobe lobe; std::uint16_t reserved = 0; };
+
+/// Tells user columns of one thread apart, and where FastColumn keeps them. Never 0.
+constexpr std::uint64_t columnId(std::uint64_t keyHash, Scope scope, ValueType type) {
+    const auto kind = static_cast<std::uint64_t>(type) << 1 | static_cast<std::uint64_t>(scope);
+    return ((keyHash ^ kind) * 0x9e3779b97f4a7c15ull) | 1;
+}
+
 /// One thread's place in a recording. All functions: only by the thread that holds it.
+///
+/// Values go to one log, in call order, each behind its tag: a single stream of writes. What is common (a known column,
+/// an open vertex, room in the log) is inline, everything else one call away.
 class Cursor {
   public:
     void setPixel(Pixel pixel);
@@ -26,26 +53,84 @@ class Cursor {
     void addSplat(Pixel pixel, Color value);
 
     void setDepthIndex(std::int32_t depth, Subpath subpath);
-    void setPosition(Vec3f position);
+    void setPosition(Vec3f position) {
+        vertexFlags_ |= VertexFlag::hasPosition;
+        add(LogTag::position, position);
+    }
     void setEnvironmentPosition(Vec3f position);
-    void addNextEvent(Vec3f position, bool visible);
-    void setSurface(std::int32_t mesh, std::int32_t face);
+    void addNextEvent(Vec3f position, bool visible) { add(LogTag::nextEvent, NextEvent{position, visible ? 1u : 0u}); }
+    void setSurface(std::int32_t mesh, std::int32_t face) { add(LogTag::surface, SurfaceValue{mesh, face}); }
     void setEvent(Event event, Lobe lobe, std::string_view label);
-    void setEstimate(Color estimate);
-    void setEmission(Color emission);
+    void setEstimate(Color estimate) { add(LogTag::estimate, estimate); }
+    void setEmission(Color emission) { add(LogTag::emission, emission); }
     void addContribution(Color value, std::string_view technique, float misWeight, LightEnd end);
 
     /// T: one of the stored types of recordable.h.
     template <typename T>
-    void addPathData(const Key& key, const T& value);
+    void addPathData(Key key, T value);
     template <typename T>
-    void addVertexData(const Key& key, const T& value);
+    void addVertexData(Key key, T value) {
+        if constexpr (kFixedSize<T>) {
+            const std::uint64_t id = columnId(key.hash(), Scope::vertex, storedType<T>());
+            FastColumn& column = fastColumns_[id >> kFastShift];
+            if (column.id == id && hasRoom(sizeof(T))) [[likely]] {
+                if (column.tag == LogTag::ignored) return;
+                ++column.count;
+                return put(column.tag, value);
+            }
+        }
+        addVertexDataSlowly(key, value);
+    }
 
   protected:
+    /// Where a user column is found by its id alone. One that finds its place taken goes the slow way.
+    struct FastColumn {
+        std::uint64_t id = 0;
+        std::uint32_t count = 0;  ///< values that were added here
+        std::uint16_t tag = LogTag::ignored;
+    };
+    static constexpr int kFastShift = 64 - 8;
+
     Cursor() = default;
     ~Cursor() = default;
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
+
+    template <typename T>
+    static constexpr bool kFixedSize = storedType<T>() != ValueType::text && storedType<T>() != ValueType::spectrum;
+
+    /// Room for a tag and `bytes` more, with a vertex open.
+    bool hasRoom(std::size_t bytes) const {
+        // As numbers, since a closed vertex has no limit.
+        const auto left = reinterpret_cast<std::uintptr_t>(limit_) - reinterpret_cast<std::uintptr_t>(next_);
+        return static_cast<std::intptr_t>(left) >= static_cast<std::intptr_t>(sizeof(std::uint16_t) + bytes);
+    }
+    template <typename T>
+    void put(std::uint16_t tag, const T& value) {
+        std::byte* const at = next_;
+        std::memcpy(at, &tag, sizeof tag);
+        std::memcpy(at + sizeof tag, &value, sizeof value);
+        next_ = at + sizeof tag + sizeof value;
+    }
+    template <typename T>
+    void add(std::uint16_t tag, const T& value) {
+        if (hasRoom(sizeof value)) [[likely]] {
+            if (!(wanted_ >> tag & 1)) return;
+            ++coreCounts_[tag];
+            return put(tag, value);
+        }
+        addSlowly(tag, &value, sizeof value);
+    }
+    void addSlowly(std::uint16_t tag, const void* value, std::size_t bytes);
+    template <typename T>
+    void addVertexDataSlowly(Key key, T value);
+
+    std::byte* next_ = nullptr;   ///< of the log
+    std::byte* limit_ = nullptr;  ///< where the log has no more room; nullptr if no vertex is open
+    std::uint32_t wanted_ = 0;    ///< bit per tag: core quantities that somebody asked for
+    std::uint8_t vertexFlags_ = 0;///< VertexFlag of the open vertex, as far as the recording itself needs them
+    std::uint32_t coreCounts_[LogTag::firstUser] = {};
+    FastColumn fastColumns_[std::size_t(1) << (64 - kFastShift)];
 };
 
 }  // namespace emca::detail

@@ -73,6 +73,28 @@ constexpr auto stored(const T& v) {
     }
 }
 
+/// The type of a column of stored values T.
+template <typename T>
+constexpr ValueType storedType() {
+    if constexpr (std::same_as<T, bool>) return ValueType::boolean;
+    else if constexpr (std::same_as<T, std::int64_t>) return ValueType::integer;
+    else if constexpr (std::same_as<T, Vec2i>) return ValueType::integer2;
+    else if constexpr (std::same_as<T, Vec3i>) return ValueType::integer3;
+    else if constexpr (std::same_as<T, float>) return ValueType::float1;
+    else if constexpr (std::same_as<T, Vec2f>) return ValueType::float2;
+    else if constexpr (std::same_as<T, Vec3f>) return ValueType::float3;
+    else if constexpr (std::same_as<T, double>) return ValueType::double1;
+    else if constexpr (std::same_as<T, Vec2d>) return ValueType::double2;
+    else if constexpr (std::same_as<T, Vec3d>) return ValueType::double3;
+    else if constexpr (std::same_as<T, Color>) return ValueType::color;
+    else if constexpr (std::same_as<T, ColorA>) return ValueType::colorA;
+    else if constexpr (std::same_as<T, std::string_view>) return ValueType::text;
+    else {
+        static_assert(std::same_as<T, std::span<const float>>);
+        return ValueType::spectrum;
+    }
+}
+
 /// A value, or a callable that makes one only while something is recorded.
 template <typename T>
 constexpr decltype(auto) resolved(T&& valueOrCallable) {

@@ -162,6 +162,7 @@ struct SurfaceCursorState {
     static void addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value);
 };
 
+/// std::isfinite that also answers in renderers compiled with -ffast-math.
 constexpr bool finiteBits(float f) { return (std::bit_cast<std::uint32_t>(f) & 0x7f800000u) != 0x7f800000u; }
 
 }  // namespace detail
@@ -180,8 +181,8 @@ inline void SurfaceLayer::add(const SurfacePoint& at, float value) const {
 inline void SurfaceLayer::add(const SurfacePoint& at, Color value) const {
     if (!recorder_ || !at.cursor_) return;
     if (channels_ == 1) return add(at, luminance(value));
-    if (at.cursor_->serials[at.shard_] == at.serial_ && isFinite(value) && !(at.record_[maskWord_] >> bit_ & 1))
-        [[likely]] {
+    if (at.cursor_->serials[at.shard_] == at.serial_ && detail::finiteBits(value.r) && detail::finiteBits(value.g) &&
+        detail::finiteBits(value.b) && !(at.record_[maskWord_] >> bit_ & 1)) [[likely]] {
         at.record_[maskWord_] |= 1u << bit_;
         at.record_[value_] = std::bit_cast<std::uint32_t>(value.r);
         at.record_[value_ + 1] = std::bit_cast<std::uint32_t>(value.g);

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "emca/core/surface_field.h"
+
+// How a triangle's subdivision is walked: shared by who records, who rebuilds and who looks a face up.
+namespace emca::detail {
+
+/// Reads the bits of a SurfaceSubdivision, which may come from anywhere.
+class SubdivisionReader {
+  public:
+    explicit SubdivisionReader(std::span<const std::uint8_t> bits) : bits_(bits) {}
+
+    /// Whether the next triangle, `level` divisions below its base face, is divided. False, and failed(), at the end.
+    bool divided(std::uint32_t level) {
+        if (level >= kMaxSurfaceLevel || bits_.empty()) return false;  // no bits: nothing of the mesh is divided
+        if (next_ >= bits_.size() * 8) {
+            failed_ = true;
+            return false;
+        }
+        const bool bit = bits_[next_ / 8] >> (next_ % 8) & 1;
+        ++next_;
+        return bit;
+    }
+    bool failed() const { return failed_; }
+    std::uint64_t position() const { return next_; }
+
+    /// After the last triangle: nothing missing, nothing left over but the zeros that fill the last byte.
+    bool complete() const {
+        if (failed_ || bits_.empty()) return !failed_;
+        return (next_ + 7) / 8 == bits_.size() && (next_ % 8 == 0 || bits_.back() >> (next_ % 8) == 0);
+    }
+
+  private:
+    std::span<const std::uint8_t> bits_;
+    std::uint64_t next_ = 0;
+    bool failed_ = false;
+};
+
+/// Where the point (u, v) of a triangle lies in one of its four children: barycentric coordinates in units of 2^-30, so
+/// that every step down is exact. Coordinates u + v <= kOne stay so.
+constexpr std::uint32_t kOne = 1u << 30;
+constexpr std::uint32_t descend(std::uint32_t& u, std::uint32_t& v) {
+    const std::uint32_t u2 = 2 * u, v2 = 2 * v;
+    if (u2 >= kOne) return u = u2 - kOne, v = v2, 1;
+    if (v2 >= kOne) return u = u2, v = v2 - kOne, 2;
+    if (u2 + v2 <= kOne) return u = u2, v = v2, 0;
+    return u = kOne - u2, v = kOne - v2, 3;
+}
+
+/// From weights of the second and third vertex, moved into the triangle. Finite ones only.
+constexpr void toFixed(float fu, float fv, std::uint32_t& u, std::uint32_t& v) {
+    const auto fixed = [](float f) { return f >= 1.f ? kOne : f > 0.f ? std::uint32_t(f * float(kOne)) : 0u; };
+    u = fixed(fu);
+    v = fixed(fv);
+    if (u + v > kOne) {  // outside the edge opposite to the first vertex: along its normal in barycentric space
+        const std::uint32_t excess = u + v - kOne, half = (excess + 1) / 2;
+        const std::uint32_t fromU = u < half ? u : v < half ? excess - v : half;
+        u -= fromU;
+        v -= excess - fromU;
+    }
+}
+
+}  // namespace emca::detail
