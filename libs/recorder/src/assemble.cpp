@@ -3,50 +3,15 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 
+#include "result_memory.h"
+#include "value_column.h"
+
 namespace emca::detail {
 namespace {
-
-constexpr Index kGone = 0xffffffffu;
-
-/// Where a thread's local paths and vertices went.
-struct Moved {
-    std::vector<Index> paths, vertices;
-    std::vector<std::uint32_t> strings;
-};
-
-/// Values of one column of the result while they arrive: owners first, then put into order once.
-template <typename T>
-struct Gathered {
-    std::vector<Index> owners;
-    std::vector<T> values;
-
-    void add(Index owner, const T& value) {
-        owners.push_back(owner);
-        values.push_back(value);
-    }
-
-    /// Order by owner; values of one owner stay in the order of their arrival.
-    void order() {
-        if (std::is_sorted(owners.begin(), owners.end())) return;
-        std::vector<Index> permutation(owners.size());
-        std::iota(permutation.begin(), permutation.end(), 0u);
-        std::stable_sort(permutation.begin(), permutation.end(), [&](Index a, Index b) { return owners[a] < owners[b]; });
-        apply(permutation, owners);
-        apply(permutation, values);
-    }
-
-  private:
-    template <typename V>
-    static void apply(const std::vector<Index>& permutation, std::vector<V>& values) {
-        std::vector<V> ordered;
-        ordered.reserve(values.size());
-        for (const Index i : permutation) ordered.push_back(values[i]);
-        values = std::move(ordered);
-    }
-};
 
 template <typename T>
 T load(const std::byte* bytes) {
@@ -55,293 +20,351 @@ T load(const std::byte* bytes) {
     return value;
 }
 
-bool isDense(const std::vector<Index>& owners, std::size_t ownerCount) {
-    if (owners.size() != ownerCount) return false;
-    for (std::size_t i = 0; i < owners.size(); ++i)
-        if (owners[i] != i) return false;
-    return true;
+/// What one thread recorded of a path in one go.
+struct Piece {
+    Index cursor, path;
+};
+
+/// A user column of the result while it is filled. Text: indices into the result's strings. Spectra: no bytes here.
+struct UserValues {
+    std::string_view name;
+    Scope scope;
+    ValueType type;
+    ValueColumn values;
+    std::vector<float> spectra;
+    std::vector<std::uint32_t> spectrumOffsets;
+    std::vector<std::uint32_t> locations;
+};
+
+/// What to do with a record of one thread: the tag says it for core quantities, the route for user columns.
+struct Route {
+    enum Kind : std::uint8_t { bytes1 = LogTag::firstUser, bytes4, bytes8, bytes12, bytes16, bytes24, text, spectrum };
+    std::uint8_t kind = 0;
+    Scope scope = Scope::vertex;
+    UserValues* column = nullptr;
+};
+
+std::uint8_t routeKind(ValueType type) {
+    if (type == ValueType::text) return Route::text;
+    if (type == ValueType::spectrum) return Route::spectrum;
+    switch (byteSize(type)) {
+        case 1: return Route::bytes1;
+        case 4: return Route::bytes4;
+        case 8: return Route::bytes8;
+        case 12: return Route::bytes12;
+        case 16: return Route::bytes16;
+        default: return Route::bytes24;
+    }
 }
+
+/// Dense arrays over all vertices; nullptr where nobody recorded the quantity. In a struct of its own, so that a copy
+/// of it stays in registers while values are written.
+struct VertexArrays {
+    std::int32_t* depths = nullptr;
+    std::uint8_t* flags = nullptr;
+    Vec3f* positions = nullptr;
+    Color* estimates = nullptr;
+    Color* emissions = nullptr;
+    std::int32_t* meshes = nullptr;
+    std::int32_t* faces = nullptr;
+    std::uint8_t* events = nullptr;
+    std::uint8_t* lobes = nullptr;
+    std::uint32_t* labels = nullptr;
+};
 
 }  // namespace
 
-/// One pass from threads' columns to the result's.
+/// One pass over the threads' logs, path by path in the order of the result.
 class Assembler {
   public:
-    Assembler(const RecordingShared& shared, std::span<CursorImpl* const> cursors) : shared_(shared), cursors_(cursors), moved_(cursors.size()) {}
+    Assembler(const RecordingShared& shared, std::span<CursorImpl* const> cursors)
+        : shared_(shared), cursors_(cursors), memory_(shared.budget.taken()) {}
 
     Result<PathSet> run(RecordingStats& stats) {
         std::size_t vertices = 0;
-        for (const CursorImpl* cursor : cursors_) vertices += cursor->vertices_.size();
+        for (const CursorImpl* cursor : cursors_)
+            for (Index p = 0; p < cursor->paths_.size(); ++p) vertices += cursor->paths_[p].vertices;
         if (vertices > 0x7fffffff)
             return Error{ErrorCode::tooLarge, "This recording has more than 2^31 vertices; ask for fewer samples or pixels."};
         orderPaths();
-        placePathsAndVertices();
         mergeStrings();
-        coreColumns();
-        userColumns();
+        countValues();
+        prepare();
+        for (Index p = 0; p < paths_.size(); ++p) fillPath(p);
+        finishCore();
+        finishUserColumns();
         out_.strings = std::move(strings_);
         addUp(stats);
         return PathSet::make(std::move(out_));
     }
 
   private:
-    struct Place {
-        Index cursor, path;
-    };
-    const PathRow& row(Place p) const { return cursors_[p.cursor]->paths_[p.path]; }
-    IndexRange localVertices(Place p) const {
-        const auto& c = *cursors_[p.cursor];
-        const bool last = p.path + 1 == c.paths_.size();
-        return {c.paths_[p.path].firstVertex, last ? c.vertices_.size() : c.paths_[p.path + 1].firstVertex};
+    const PathRow& row(Piece p) const { return cursors_[p.cursor]->paths_[p.path]; }
+    LogPosition endOf(Piece p) const {
+        const CursorImpl& c = *cursors_[p.cursor];
+        return p.path + 1 == c.paths_.size() ? c.logEnd() : c.paths_[p.path + 1].begin;
     }
 
     void orderPaths() {
-        for (Index c = 0; c < cursors_.size(); ++c) {
-            moved_[c].paths.assign(cursors_[c]->paths_.size(), kGone);
-            moved_[c].vertices.assign(cursors_[c]->vertices_.size(), kGone);
-            for (Index p = 0; p < cursors_[c]->paths_.size(); ++p) places_.push_back({c, p});
-        }
-        const auto id = [&](Place p) { return std::tie(row(p).pixel, row(p).sample, row(p).part); };
-        const auto less = [&](Place a, Place b) { return id(a) < id(b); };
-        if (!std::is_sorted(places_.begin(), places_.end(), less)) std::stable_sort(places_.begin(), places_.end(), less);
-    }
-
-    void placePathsAndVertices() {
-        std::vector<Pixel> pixels;
-        std::vector<std::int64_t> samples;
-        std::vector<std::int32_t> parts;
-        std::vector<std::uint8_t> flags;
-        std::vector<Vec3f> origins;
-        std::vector<Color> estimates;
-        std::vector<Index> firstVertex{0};
-        for (std::size_t begin = 0, end = 0; begin < places_.size(); begin = end) {
-            const PathRow& first = row(places_[begin]);
+        for (Index c = 0; c < cursors_.size(); ++c)
+            for (Index p = 0; p < cursors_[c]->paths_.size(); ++p) pieces_.push_back({c, p});
+        const auto id = [&](Piece p) { return std::tie(row(p).pixel, row(p).sample, row(p).part); };
+        const auto less = [&](Piece a, Piece b) { return id(a) < id(b); };
+        if (!std::is_sorted(pieces_.begin(), pieces_.end(), less)) std::stable_sort(pieces_.begin(), pieces_.end(), less);
+        for (Index begin = 0, end = 0; begin < pieces_.size(); begin = end) {
             bool kept = false;
-            for (end = begin; end < places_.size(); ++end) {
-                const PathRow& r = row(places_[end]);
-                if (std::tie(r.pixel, r.sample, r.part) != std::tie(first.pixel, first.sample, first.part)) break;
-                kept = kept || shared_.keeps(r);
-            }
-            if (!kept) {
+            for (end = begin; end < pieces_.size() && id(pieces_[end]) == id(pieces_[begin]); ++end)
+                kept = kept || shared_.keeps(row(pieces_[end]));
+            if (kept)
+                paths_.push_back({begin, end});
+            else
                 ++notKept_;
-                continue;
-            }
-            const auto path = static_cast<Index>(pixels.size());
-            pixels.push_back(first.pixel);
-            samples.push_back(first.sample);
-            parts.push_back(first.part);
-            flags.push_back(0);
-            origins.emplace_back();
-            estimates.emplace_back();
-            for (std::size_t i = begin; i < end; ++i) {
-                const PathRow& r = row(places_[i]);
-                moved_[places_[i].cursor].paths[places_[i].path] = path;
-                flags.back() |= r.flags;
-                if (r.flags & PathFlag::hasOrigin) origins.back() = r.origin;
-                if (r.flags & PathFlag::hasEstimate) estimates.back() = r.estimate;
-            }
-            placeVertices(std::span(places_).subspan(begin, end - begin));
-            firstVertex.push_back(static_cast<Index>(depths_.size()));
-        }
-        // What no path has is left out as a whole.
-        std::uint8_t used = 0;
-        for (const std::uint8_t f : flags) used |= f;
-        if (!(used & PathFlag::hasOrigin)) origins.clear();
-        if (!(used & PathFlag::hasEstimate)) estimates.clear();
-        out_.pixels = std::move(pixels);
-        out_.samples = std::move(samples);
-        out_.parts = std::move(parts);
-        out_.pathFlags = std::move(flags);
-        out_.origins = std::move(origins);
-        out_.estimates = std::move(estimates);
-        out_.firstVertex = std::move(firstVertex);
-    }
-
-    /// Vertices of one path, which several threads may have recorded in any order.
-    void placeVertices(std::span<const Place> parts) {
-        scratch_.clear();
-        for (const Place& part : parts) {
-            const IndexRange range = localVertices(part);
-            for (Index v = range.first; v < range.last; ++v) scratch_.push_back({part.cursor, v});
-        }
-        const auto key = [&](const Place& p) {
-            const VertexRow& v = cursors_[p.cursor]->vertices_[p.path];
-            return std::tuple(v.flags & VertexFlag::light, v.depth);
-        };
-        const auto less = [&](const Place& a, const Place& b) { return key(a) < key(b); };
-        if (!std::is_sorted(scratch_.begin(), scratch_.end(), less)) std::stable_sort(scratch_.begin(), scratch_.end(), less);
-        for (std::size_t i = 0; i < scratch_.size(); ++i) {
-            const VertexRow& v = cursors_[scratch_[i].cursor]->vertices_[scratch_[i].path];
-            if (i == 0 || key(scratch_[i - 1]) != key(scratch_[i])) {
-                depths_.push_back(v.depth);
-                vertexFlags_.push_back(0);
-                positions_.emplace_back();
-            }
-            vertexFlags_.back() |= v.flags;
-            if (v.flags & VertexFlag::hasPosition) positions_.back() = v.position;
-            moved_[scratch_[i].cursor].vertices[scratch_[i].path] = static_cast<Index>(depths_.size() - 1);
         }
     }
 
     void mergeStrings() {
         std::unordered_map<std::string_view, std::uint32_t> known;
-        for (std::size_t c = 0; c < cursors_.size(); ++c)
-            for (const std::string& text : cursors_[c]->strings_.strings())
-                moved_[c].strings.push_back(string(known, text));
-    }
-
-    std::uint32_t string(std::unordered_map<std::string_view, std::uint32_t>& known, std::string_view text) {
-        const auto [it, added] = known.try_emplace(text, static_cast<std::uint32_t>(strings_.size()));
-        if (added) strings_.emplace_back(text);
-        return it->second;
-    }
-
-    /// Reads one core column of all threads: visit(final vertex or path, value, cursor index).
-    template <typename T, typename Visit>
-    void each(PageColumn CursorImpl::*column, bool ofPaths, Visit&& visit) {
-        for (Index c = 0; c < cursors_.size(); ++c) {
-            const std::vector<Index>& map = ofPaths ? moved_[c].paths : moved_[c].vertices;
-            (cursors_[c]->*column).forEach([&](Index owner, const std::byte* bytes) {
-                if (map[owner] != kGone) visit(map[owner], load<T>(bytes), c);
-            });
+        for (const CursorImpl* cursor : cursors_) {
+            std::vector<std::uint32_t>& moved = movedStrings_.emplace_back();
+            for (const std::string& text : cursor->strings_.strings()) {
+                const auto [it, added] = known.try_emplace(text, static_cast<std::uint32_t>(strings_.size()));
+                if (added) strings_.push_back(text);
+                moved.push_back(it->second);
+            }
         }
     }
 
-    void coreColumns() {
-        const std::size_t m = depths_.size();
-        dense<Color>(&CursorImpl::estimates_, VertexFlag::hasEstimate, m, out_.vertexEstimates);
-        dense<Color>(&CursorImpl::emissions_, VertexFlag::hasEmission, m, out_.emissions);
-        std::vector<std::int32_t> meshes, faces;
-        each<SurfaceValue>(&CursorImpl::surfaces_, false, [&](Index v, const SurfaceValue& s, Index) {
-            if (meshes.empty()) meshes.assign(m, -1), faces.assign(m, -1);
-            meshes[v] = s.mesh;
-            faces[v] = s.face;
-            vertexFlags_[v] |= VertexFlag::hasSurface;
-        });
-        std::vector<std::uint8_t> events, lobes;
-        std::vector<std::uint32_t> labels;
-        each<EventValue>(&CursorImpl::events_, false, [&](Index v, const EventValue& e, Index c) {
-            if (events.empty()) events.assign(m, 0), lobes.assign(m, 0), labels.assign(m, kNoString);
-            events[v] = static_cast<std::uint8_t>(e.event);
-            lobes[v] = static_cast<std::uint8_t>(e.lobe);
-            labels[v] = e.label == kNoString ? kNoString : moved_[c].strings[e.label];
-            vertexFlags_[v] |= VertexFlag::hasEvent;
-        });
-        Gathered<NextEvent> nextEvents;
-        each<NextEvent>(&CursorImpl::nextEvents_, false, [&](Index v, const NextEvent& e, Index) { nextEvents.add(v, e); });
-        Gathered<Contribution> contributions;
-        each<Contribution>(&CursorImpl::contributions_, false, [&](Index v, Contribution e, Index c) {
-            e.technique = moved_[c].strings[e.technique];
-            contributions.add(v, e);
-        });
-        Gathered<Splat> splats;
-        each<Splat>(&CursorImpl::splats_, true, [&](Index p, const Splat& s, Index) { splats.add(p, s); });
-        sparse(nextEvents, out_.nextEventOwners, out_.nextEvents);
-        sparse(contributions, out_.contributionOwners, out_.contributions);
-        sparse(splats, out_.splatOwners, out_.splats);
-        out_.meshes = std::move(meshes);
-        out_.faces = std::move(faces);
-        out_.events = std::move(events);
-        out_.lobes = std::move(lobes);
-        out_.labels = std::move(labels);
-        out_.depths = std::move(depths_);
-        out_.vertexFlags = std::move(vertexFlags_);
-        out_.positions = std::move(positions_);
+    /// Values by thread and tag. The threads counted them; but where paths are left out, their values are, too.
+    void countValues() {
+        for (const CursorImpl* cursor : cursors_) {
+            std::vector<std::uint32_t>& counts = counts_.emplace_back(LogTag::firstUser + cursor->columns_.size());
+            if (notKept_ > 0) continue;
+            std::copy_n(cursor->coreCounts_, std::size_t(LogTag::firstUser), counts.begin());
+            for (std::uint32_t i = 0; i < cursor->columns_.size(); ++i) counts[LogTag::firstUser + i] = cursor->countOf(i);
+        }
+        for (const IndexRange& path : paths_)
+            for (Index i = path.first; i < path.last; ++i) {
+                mostVertices_ += row(pieces_[i]).vertices;
+                if (notKept_ == 0) continue;
+                cursors_[pieces_[i].cursor]->readRecords(
+                    row(pieces_[i]).begin, endOf(pieces_[i]),
+                    [&](std::uint32_t tag, const std::byte*) { ++counts_[pieces_[i].cursor][tag]; });
+            }
     }
 
-    template <typename T>
-    void dense(PageColumn CursorImpl::*column, std::uint8_t flag, std::size_t size, SharedArray<T>& out) {
-        std::vector<T> values;
-        each<T>(column, false, [&](Index v, const T& value, Index) {
-            if (values.empty()) values.resize(size);
-            values[v] = value;
-            vertexFlags_[v] |= flag;
+    std::size_t coreCount(std::uint16_t tag) const {
+        std::size_t count = 0;
+        for (const auto& counts : counts_) count += counts[tag];
+        return count;
+    }
+
+    /// Arrays for all that is there, and the way from each thread's records to them.
+    void prepare() {
+        preparePaths();
+        const std::size_t m = mostVertices_;
+        const auto ifAny = [&](std::uint16_t tag) { return coreCount(tag) > 0 ? m : 0; };
+        depths_ = memory_.take<std::int32_t>(m);
+        vertexFlags_ = memory_.take<std::uint8_t>(m, 0);
+        positions_ = memory_.take<Vec3f>(m, {});
+        estimates_ = memory_.take<Color>(ifAny(LogTag::estimate), {});
+        emissions_ = memory_.take<Color>(ifAny(LogTag::emission), {});
+        meshes_ = memory_.take<std::int32_t>(ifAny(LogTag::surface), -1);
+        faces_ = memory_.take<std::int32_t>(ifAny(LogTag::surface), -1);
+        events_ = memory_.take<std::uint8_t>(ifAny(LogTag::event), 0);
+        lobes_ = memory_.take<std::uint8_t>(ifAny(LogTag::event), 0);
+        labels_ = memory_.take<std::uint32_t>(ifAny(LogTag::event), kNoString);
+        vertex_ = {depths_.data, vertexFlags_.data, positions_.data, estimates_.data, emissions_.data,
+                   meshes_.data, faces_.data, events_.data, lobes_.data, labels_.data};
+        nextEvents_ = {coreCount(LogTag::nextEvent), sizeof(NextEvent), false, memory_};
+        contributions_ = {coreCount(LogTag::contribution), sizeof(Contribution), false, memory_};
+        splats_ = {coreCount(LogTag::splat), sizeof(Splat), false, memory_};
+        prepareUserColumns();
+    }
+
+    void preparePaths() {
+        const std::size_t n = paths_.size();
+        pixels_ = memory_.take<Pixel>(n);
+        samples_ = memory_.take<std::int64_t>(n);
+        parts_ = memory_.take<std::int32_t>(n);
+        pathFlags_ = memory_.take<std::uint8_t>(n, 0);
+        origins_ = memory_.take<Vec3f>(n, {});
+        pathEstimates_ = memory_.take<Color>(n, {});
+        firstVertex_ = memory_.take<Index>(n + 1, 0);
+    }
+
+    void prepareUserColumns() {
+        struct Source {
+            Index cursor;
+            std::uint32_t column;
+        };
+        std::map<std::tuple<Scope, std::string_view, ValueType>, std::vector<Source>> groups;
+        for (Index c = 0; c < cursors_.size(); ++c) {
+            const std::vector<UserColumn>& columns = cursors_[c]->columns_;
+            std::vector<Route>& routes = routes_.emplace_back(LogTag::firstUser + columns.size());
+            for (std::uint8_t tag = 0; tag < LogTag::firstUser; ++tag) routes[tag].kind = tag;
+            for (std::uint32_t i = 0; i < columns.size(); ++i)
+                if (counts_[c][LogTag::firstUser + i] > 0)
+                    groups[{columns[i].scope, columns[i].name, columns[i].type}].push_back({c, i});
+        }
+        userValues_.reserve(groups.size());
+        for (const auto& [id, sources] : groups) {
+            const auto& [scope, name, type] = id;
+            std::size_t count = 0;
+            for (const Source& s : sources) count += counts_[s.cursor][LogTag::firstUser + s.column];
+            const std::size_t owners = scope == Scope::path ? paths_.size() : mostVertices_;
+            const std::size_t bytes = type == ValueType::spectrum ? 0 : byteSize(type);
+            userValues_.push_back({name, scope, type, ValueColumn(count, bytes, count == owners, memory_), {}, {}, {}});
+            if (type == ValueType::spectrum) userValues_.back().spectrumOffsets.push_back(0);
+            for (const Source& s : sources)
+                routes_[s.cursor][LogTag::firstUser + s.column] = {routeKind(type), scope, &userValues_.back()};
+        }
+    }
+
+    void fillPath(Index p) {
+        const auto pieces = std::span(pieces_).subspan(paths_[p].first, paths_[p].size());
+        const PathRow& first = row(pieces.front());
+        pixels_.data[p] = first.pixel;
+        samples_.data[p] = first.sample;
+        parts_.data[p] = first.part;
+        for (const Piece& piece : pieces) {
+            const PathRow& r = row(piece);
+            pathFlags_.data[p] |= r.flags;
+            if (r.flags & PathFlag::hasOrigin) origins_.data[p] = r.origin;
+            if (r.flags & PathFlag::hasEstimate) pathEstimates_.data[p] = r.estimate;
+        }
+        if (pieces.size() == 1 && first.ordered) {
+            places_.resize(std::max<std::size_t>(places_.size(), first.vertices));
+            std::iota(places_.begin(), places_.begin() + first.vertices, vertexCount_);
+            vertexCount_ += first.vertices;
+            fillVertices(pieces.front(), p, places_.data());
+        } else {
+            const std::vector<Index> begins = placeVertices(pieces);
+            for (std::size_t i = 0; i < pieces.size(); ++i) fillVertices(pieces[i], p, places_.data() + begins[i]);
+        }
+        firstVertex_.data[p + 1] = vertexCount_;
+    }
+
+    /// The vertices of one path, which several threads may have recorded in any order: fills places_, and returns where
+    /// in it each piece begins.
+    std::vector<Index> placeVertices(std::span<const Piece> pieces) {
+        struct Found {
+            bool light;
+            std::int32_t depth;
+            Index recorded;  ///< place among the vertices of all pieces
+        };
+        std::vector<Found> found;
+        std::vector<Index> begins;
+        for (const Piece& piece : pieces) {
+            begins.push_back(static_cast<Index>(found.size()));
+            cursors_[piece.cursor]->readRecords(row(piece).begin, endOf(piece), [&](std::uint32_t tag, const std::byte* value) {
+                if (tag == LogTag::cameraVertex || tag == LogTag::lightVertex)
+                    found.push_back({tag == LogTag::lightVertex, load<std::int32_t>(value), static_cast<Index>(found.size())});
+            });
+        }
+        const auto key = [](const Found& f) { return std::tie(f.light, f.depth); };
+        std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return key(a) < key(b); });
+        places_.resize(std::max(places_.size(), found.size()));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (i == 0 || key(found[i - 1]) != key(found[i])) ++vertexCount_;
+            places_[found[i].recorded] = vertexCount_ - 1;
+        }
+        return begins;
+    }
+
+    void fillVertices(Piece piece, Index path, const Index* places) {
+        cursors_[piece.cursor]->log_.read(row(piece).begin, endOf(piece), [&, reached = Reached{places, {path, 0}, 0, 0}](
+                                                                               const std::byte* at, const std::byte* end) mutable {
+            fillFrom(at, end, piece.cursor, reached);
         });
-        out = std::move(values);
     }
 
-    template <typename T>
-    static void sparse(Gathered<T>& gathered, SharedArray<Index>& owners, SharedArray<T>& values) {
-        gathered.order();
-        owners = std::move(gathered.owners);
-        values = std::move(gathered.values);
-    }
-
-    void userColumns() {
-        std::map<std::tuple<Scope, std::string_view, ValueType>, std::vector<std::pair<Index, const KeyedColumn*>>> groups;
-        for (Index c = 0; c < cursors_.size(); ++c)
-            for (const auto& column : cursors_[c]->columns_)
-                if (column->wanted && column->values.size() > 0) groups[{column->scope, column->name, column->type}].push_back({c, column.get()});
-        for (const auto& [id, sources] : groups) userColumn(std::get<0>(id), std::get<2>(id), sources);
-    }
-
-    struct Slot {
-        const std::byte* value;
-        Index source, position;
+    /// Where the reading of a path is.
+    struct Reached {
+        const Index* places;   ///< in the result, of the vertices in the order in which they were begun
+        Index owner[2];        ///< the path and the current vertex
+        Index begun;           ///< vertices so far
+        std::uint8_t flags;    ///< of the current vertex
     };
 
-    void userColumn(Scope scope, ValueType type, const std::vector<std::pair<Index, const KeyedColumn*>>& sources) {
-        Gathered<Slot> gathered;
-        for (Index s = 0; s < sources.size(); ++s) {
-            const Moved& moved = moved_[sources[s].first];
-            const std::vector<Index>& map = scope == Scope::path ? moved.paths : moved.vertices;
-            Index position = 0;
-            sources[s].second->values.forEach([&](Index owner, const std::byte* value) {
-                if (map[owner] != kGone) gathered.add(map[owner], {value, s, position});
-                ++position;
-            });
-        }
-        if (gathered.owners.empty()) return;
-        gathered.order();
-        Column column;
-        column.name = sources.front().second->name;
-        column.scope = scope;
-        column.type = type;
-        column.count = static_cast<Index>(gathered.owners.size());
-        copyValues(gathered.values, sources, column);
-        if (shared_.options.locations) column.locations = locations(gathered.values, sources);
-        const std::size_t ownerCount = scope == Scope::path ? out_.pixels.size() : out_.depths.size();
-        if (!isDense(gathered.owners, ownerCount)) column.owners = std::move(gathered.owners);
-        out_.columns.push_back(std::move(column));
+    void fillFrom(const std::byte* at, const std::byte* const end, Index cursor, Reached& reached);
+    void addUserValue(const Route& route, const Index* owner, Index cursor, const std::byte*& at);
+
+    void finishCore() {
+        const std::size_t n = paths_.size(), m = vertexCount_;
+        // What no path has is left out as a whole.
+        std::uint8_t used = 0;
+        for (std::size_t p = 0; p < n; ++p) used |= pathFlags_.data[p];
+        out_.pixels = pixels_.share(n);
+        out_.samples = samples_.share(n);
+        out_.parts = parts_.share(n);
+        out_.pathFlags = pathFlags_.share(n);
+        if (used & PathFlag::hasOrigin) out_.origins = origins_.share(n);
+        if (used & PathFlag::hasEstimate) out_.estimates = pathEstimates_.share(n);
+        out_.firstVertex = firstVertex_.share(n + 1);
+        out_.depths = depths_.share(m);
+        out_.vertexFlags = vertexFlags_.share(m);
+        out_.positions = positions_.share(m);
+        const auto orNone = [&]<typename T>(const ResultArray<T>& array) { return array.share(array.data ? m : 0); };
+        out_.vertexEstimates = orNone(estimates_);
+        out_.emissions = orNone(emissions_);
+        out_.meshes = orNone(meshes_);
+        out_.faces = orNone(faces_);
+        out_.events = orNone(events_);
+        out_.lobes = orNone(lobes_);
+        out_.labels = orNone(labels_);
+        for (ValueColumn* column : {&nextEvents_, &contributions_, &splats_}) column->order();
+        out_.nextEventOwners = nextEvents_.owners();
+        out_.nextEvents = nextEvents_.share<NextEvent>();
+        out_.contributionOwners = contributions_.owners();
+        out_.contributions = contributions_.share<Contribution>();
+        out_.splatOwners = splats_.owners();
+        out_.splats = splats_.share<Splat>();
     }
 
-    void copyValues(const std::vector<Slot>& slots, const std::vector<std::pair<Index, const KeyedColumn*>>& sources, Column& column) {
-        if (column.type == ValueType::spectrum) {
-            std::vector<std::uint32_t> offsets{0};
-            std::vector<std::byte> bytes;
-            for (const Slot& slot : slots) {
-                const auto span = load<SpectrumSpan>(slot.value);
-                const auto* floats = reinterpret_cast<const std::byte*>(sources[slot.source].second->floats.data() + span.first);
-                bytes.insert(bytes.end(), floats, floats + std::size_t(span.size) * sizeof(float));
-                offsets.push_back(offsets.back() + span.size);
+    void finishUserColumns() {
+        for (UserValues& user : userValues_) {
+            const std::vector<Index> permutation = user.values.order();
+            if (!permutation.empty()) follow(permutation, user);
+            Column column;
+            column.name = user.name;
+            column.scope = user.scope;
+            column.type = user.type;
+            column.count = user.values.count();
+            if (!user.values.dense(user.scope == Scope::path ? paths_.size() : vertexCount_)) column.owners = user.values.owners();
+            column.bytes = user.values.share<std::byte>();
+            if (user.type == ValueType::spectrum) {
+                const auto bytes = std::as_bytes(std::span(user.spectra));
+                column.bytes = std::vector<std::byte>(bytes.begin(), bytes.end());
+                column.spectrumOffsets = std::move(user.spectrumOffsets);
             }
-            column.bytes = std::move(bytes);
-            column.spectrumOffsets = std::move(offsets);
-            return;
+            column.locations = std::move(user.locations);
+            out_.columns.push_back(std::move(column));
         }
-        const std::size_t size = byteSize(column.type);
-        std::vector<std::byte> bytes(slots.size() * size);
-        for (std::size_t i = 0; i < slots.size(); ++i) {
-            if (column.type == ValueType::text) {
-                const std::uint32_t text = moved_[sources[slots[i].source].first].strings[load<std::uint32_t>(slots[i].value)];
-                std::memcpy(&bytes[i * size], &text, sizeof text);
-            } else {
-                std::memcpy(&bytes[i * size], slots[i].value, size);
-            }
-        }
-        column.bytes = std::move(bytes);
     }
 
-    std::vector<std::uint32_t> locations(const std::vector<Slot>& slots, const std::vector<std::pair<Index, const KeyedColumn*>>& sources) {
-        std::vector<std::uint32_t> out;
-        for (const Slot& slot : slots) {
-            const std::source_location& where = sources[slot.source].second->locations[slot.position];
-            const std::string text = std::string(where.file_name()) + ":" + std::to_string(where.line());
-            const auto [it, added] = knownLocations_.try_emplace(text, static_cast<std::uint32_t>(strings_.size()));
-            if (added) strings_.push_back(text);
-            out.push_back(it->second);
+    /// Brings what stands beside the values in their new order.
+    static void follow(const std::vector<Index>& permutation, UserValues& user) {
+        if (!user.locations.empty()) {
+            std::vector<std::uint32_t> locations;
+            for (const Index i : permutation) locations.push_back(user.locations[i]);
+            user.locations = std::move(locations);
         }
-        return out;
+        if (user.type != ValueType::spectrum) return;
+        std::vector<float> spectra;
+        std::vector<std::uint32_t> offsets{0};
+        for (const Index i : permutation) {
+            spectra.insert(spectra.end(), user.spectra.begin() + user.spectrumOffsets[i], user.spectra.begin() + user.spectrumOffsets[i + 1]);
+            offsets.push_back(static_cast<std::uint32_t>(spectra.size()));
+        }
+        user.spectra = std::move(spectra);
+        user.spectrumOffsets = std::move(offsets);
+    }
+
+    std::uint32_t locationText(const std::source_location& where) {
+        const std::string text = std::string(where.file_name()) + ":" + std::to_string(where.line());
+        const auto [it, added] = knownLocations_.try_emplace(text, static_cast<std::uint32_t>(strings_.size()));
+        if (added) strings_.push_back(text);
+        return it->second;
     }
 
     void addUp(RecordingStats& stats) const {
@@ -358,16 +381,149 @@ class Assembler {
 
     const RecordingShared& shared_;
     std::span<CursorImpl* const> cursors_;
-    std::vector<Moved> moved_;
-    std::vector<Place> places_, scratch_;
-    std::vector<std::int32_t> depths_;
-    std::vector<std::uint8_t> vertexFlags_;
-    std::vector<Vec3f> positions_;
+    std::vector<Piece> pieces_;
+    std::vector<IndexRange> paths_;  ///< pieces of each path of the result
+    std::uint64_t notKept_ = 0;
+    std::vector<std::vector<std::uint32_t>> counts_, movedStrings_;  ///< by thread
+    std::vector<std::vector<Route>> routes_;                         ///< by thread, then by tag
     std::vector<std::string> strings_;
     std::unordered_map<std::string, std::uint32_t> knownLocations_;
-    std::uint64_t notKept_ = 0;
+    std::size_t mostVertices_ = 0;  ///< before the pieces of a path are joined
+    Index vertexCount_ = 0;
+    std::vector<Index> places_;
+
+    ResultMemory memory_;
+    ResultArray<Pixel> pixels_;
+    ResultArray<std::int64_t> samples_;
+    ResultArray<std::int32_t> parts_, depths_, meshes_, faces_;
+    ResultArray<std::uint8_t> pathFlags_, vertexFlags_, events_, lobes_;
+    ResultArray<Vec3f> origins_, positions_;
+    ResultArray<Color> pathEstimates_, estimates_, emissions_;
+    ResultArray<Index> firstVertex_;
+    ResultArray<std::uint32_t> labels_;
+    VertexArrays vertex_;
+    ValueColumn nextEvents_{0, 0, false, memory_}, contributions_{0, 0, false, memory_}, splats_{0, 0, false, memory_};
+    std::vector<UserValues> userValues_;  ///< does not grow once routes lead to it
     PathColumns out_;
 };
+
+void Assembler::addUserValue(const Route& route, const Index* owner, Index cursor, const std::byte*& at) {
+    UserValues& column = *route.column;
+    const Index to = owner[static_cast<std::size_t>(route.scope)];
+    switch (route.kind) {
+        case Route::bytes1: column.values.add<1>(to, at); at += 1; break;
+        case Route::bytes4: column.values.add<4>(to, at); at += 4; break;
+        case Route::bytes8: column.values.add<8>(to, at); at += 8; break;
+        case Route::bytes12: column.values.add<12>(to, at); at += 12; break;
+        case Route::bytes16: column.values.add<16>(to, at); at += 16; break;
+        case Route::bytes24: column.values.add<24>(to, at); at += 24; break;
+        case Route::text: {
+            const std::uint32_t text = movedStrings_[cursor][load<std::uint32_t>(at)];
+            column.values.add<4>(to, reinterpret_cast<const std::byte*>(&text));
+            at += 4;
+            break;
+        }
+        case Route::spectrum: {
+            const auto entries = load<std::uint32_t>(at);
+            at += sizeof entries;
+            const std::size_t before = column.spectra.size();
+            column.spectra.resize(before + entries);
+            if (entries > 0) std::memcpy(column.spectra.data() + before, at, entries * sizeof(float));
+            at += entries * sizeof(float);
+            column.spectrumOffsets.push_back(static_cast<std::uint32_t>(column.spectra.size()));
+            column.values.addOwner(to);
+            break;
+        }
+        default: break;
+    }
+    if (shared_.options.locations) {
+        column.locations.push_back(locationText(load<std::source_location>(at)));
+        at += sizeof(std::source_location);
+    }
+}
+
+void Assembler::fillFrom(const std::byte* at, const std::byte* const end, Index cursor, Reached& reached) {
+    const VertexArrays vertex = vertex_;
+    const Route* const routes = routes_[cursor].data();
+    const std::uint32_t* const strings = movedStrings_[cursor].data();
+    Index owner[2] = {reached.owner[0], reached.owner[1]}, begun = reached.begun;
+    Index& v = owner[1];
+    std::uint8_t flags = reached.flags;
+    const auto leave = [&] {
+        if (begun > 0) vertex.flags[v] |= flags;
+    };
+    while (at < end) {
+        std::uint32_t tag = load<std::uint16_t>(at);
+        at += sizeof(std::uint16_t);
+        switch (routes[tag].kind) {
+            case LogTag::cameraVertex:
+            case LogTag::lightVertex:
+                leave();
+                v = reached.places[begun++];
+                vertex.depths[v] = load<std::int32_t>(at);
+                flags = tag == LogTag::lightVertex ? std::uint8_t(VertexFlag::light) : std::uint8_t(0);
+                at += sizeof(std::int32_t);
+                break;
+            case LogTag::revisit:
+                leave();
+                v = reached.places[load<Index>(at)];
+                flags = 0;
+                at += sizeof(Index);
+                break;
+            case LogTag::environment: flags |= VertexFlag::environment; break;
+            case LogTag::position:
+                vertex.positions[v] = load<Vec3f>(at);
+                flags |= VertexFlag::hasPosition;
+                at += sizeof(Vec3f);
+                break;
+            case LogTag::estimate:
+                vertex.estimates[v] = load<Color>(at);
+                flags |= VertexFlag::hasEstimate;
+                at += sizeof(Color);
+                break;
+            case LogTag::emission:
+                vertex.emissions[v] = load<Color>(at);
+                flags |= VertexFlag::hasEmission;
+                at += sizeof(Color);
+                break;
+            case LogTag::surface: {
+                const auto surface = load<SurfaceValue>(at);
+                vertex.meshes[v] = surface.mesh;
+                vertex.faces[v] = surface.face;
+                flags |= VertexFlag::hasSurface;
+                at += sizeof surface;
+                break;
+            }
+            case LogTag::event: {
+                const auto event = load<EventValue>(at);
+                vertex.events[v] = static_cast<std::uint8_t>(event.event);
+                vertex.lobes[v] = static_cast<std::uint8_t>(event.lobe);
+                vertex.labels[v] = event.label == kNoString ? kNoString : strings[event.label];
+                flags |= VertexFlag::hasEvent;
+                at += sizeof event;
+                break;
+            }
+            case LogTag::nextEvent: nextEvents_.add<sizeof(NextEvent)>(v, at); at += sizeof(NextEvent); break;
+            case LogTag::contribution: {
+                auto contribution = load<Contribution>(at);
+                contribution.technique = strings[contribution.technique];
+                contributions_.add<sizeof(Contribution)>(v, reinterpret_cast<const std::byte*>(&contribution));
+                at += sizeof contribution;
+                break;
+            }
+            case LogTag::splat: splats_.add<sizeof(Splat)>(owner[0], at); at += sizeof(Splat); break;
+            case LogTag::wide:
+                tag = load<std::uint32_t>(at) + LogTag::firstUser;
+                at += sizeof tag;
+                [[fallthrough]];
+            default: addUserValue(routes[tag], owner, cursor, at); break;
+        }
+    }
+    leave();
+    reached.owner[1] = v;
+    reached.begun = begun;
+    reached.flags = flags;
+}
 
 Result<PathSet> assemble(const RecordingShared& shared, std::span<CursorImpl* const> cursors, RecordingStats& stats) {
     return Assembler(shared, cursors).run(stats);

@@ -1,25 +1,28 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <cstring>
+#include <limits>
+#include <source_location>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "emca/recorder/cursor.h"
 #include "emca/recorder/recording.h"
-#include "page_column.h"
+#include "interner.h"
+#include "pages.h"
+#include "record_log.h"
 
 namespace emca::detail {
 
-/// Core quantities as bits, for the choice of columns.
+/// Core quantities as bits, for the choice of columns: those of a log by their tags, and two that paths have.
 struct Core {
     enum : std::uint32_t {
-        origin = 1, estimate = 2, position = 4, nextEvent = 8, vertexEstimate = 16, emission = 32, surface = 64,
-        event = 128, contribution = 256, splat = 512, all = 1023,
+        origin = 1u << 30, estimate = 1u << 31, all = 0xffffffffu,
     };
 };
+static_assert(LogTag::firstUser < 30);
 
 /// Which columns a request wants; shared by all cursors of a recording, read-only.
 struct ColumnChoice {
@@ -45,61 +48,25 @@ struct PathRow {
     Pixel pixel;
     std::int64_t sample = 0;
     std::int32_t part = 0;
-    Index firstVertex = 0;  ///< local; the path's vertices end where the next path's begin
-    bool hasPixel = false;
-    bool keptBySplat = false;
-    bool byHandle = false;  ///< others may add to it until the end: only then is it decided whether it stays
-    std::uint8_t flags = 0;
+    LogPosition begin;          ///< of the path's records, which end where the next path's begin
+    Index vertices = 0;         ///< counted at the path's end
     Vec3f origin;
     Color estimate;
+    bool hasPixel = false;
+    bool keptBySplat = false;
+    bool byHandle = false;      ///< others may add to it until the end: only then is it decided whether it stays
+    bool ordered = true;        ///< its vertices were begun in the order of the result
+    std::uint8_t flags = 0;     ///< PathFlag
 };
-
-struct VertexRow {
-    std::int32_t depth;
-    std::uint8_t flags;  ///< VertexFlag
-    Vec3f position;
-};
-
-struct SurfaceValue { std::int32_t mesh, face; };
-struct EventValue { std::uint32_t label; Event event; Lobe lobe; };
 
 /// A user column of one thread.
-struct KeyedColumn {
-    KeyedColumn(const Key& key, Scope s, ValueType t, bool w, std::uint32_t bytes)
-        : hash(key.hash()), scope(s), type(t), wanted(w), name(key.text()), values(bytes) {}
-    std::uint64_t hash;
+struct UserColumn {
+    std::uint64_t hash;         ///< of the key
     Scope scope;
     ValueType type;
     bool wanted;
     std::string name;
-    PageColumn values;                          ///< spectra: position and length in `floats`
-    std::vector<float> floats;                  ///< spectra only
-    std::vector<std::source_location> locations;///< only where asked for
-    KeyedColumn* next = nullptr;                ///< the one that was used after this the last time
-};
-
-struct SpectrumSpan { std::uint32_t first, size; };
-
-/// Strings of one thread, each once.
-class Interner {
-  public:
-    /// Index of the text, new or known; kNoString if it is new and the budget has no room for it.
-    std::uint32_t add(std::string_view text, Budget& budget);
-    const std::vector<std::string>& strings() const { return strings_; }
-
-  private:
-    std::uint32_t find(std::string_view text, Budget& budget);
-    void rehash(std::size_t slots);
-    /// Texts that came lately, by where they lie: a renderer says the same literals and names again and again.
-    struct Recent {
-        const char* data = nullptr;
-        std::size_t size = 0;
-        std::uint32_t index = 0;
-    };
-    Recent recent_[16];
-    std::vector<std::string> strings_;
-    std::vector<std::uint32_t> slots_;  ///< open addressing; kNoString marks a free slot
-    std::vector<std::uint64_t> hashes_;
+    std::uint32_t count = 0;    ///< values, besides those that FastColumn counted
 };
 
 class CursorImpl final : public Cursor {
@@ -118,17 +85,21 @@ class CursorImpl final : public Cursor {
 
     void startVertex(std::int32_t depth, Subpath subpath);
     void finishVertex();
+    void openVertex(Index vertex);
     void forgetPath();
     void dropWithoutPath() { ++(starved_ ? stats_.droppedByBudget : stats_.droppedWithoutPath); }
     void dropWithoutVertex() { ++(starved_ ? stats_.droppedByBudget : stats_.droppedWithoutVertex); }
+    /// Room for `bytes` at next_, or false, counted.
+    bool reserve(std::size_t bytes);
+    bool wants(std::uint16_t coreTag) const { return (wanted_ >> coreTag & 1) != 0; }
     template <typename T>
-    void appendCore(PageColumn& column, std::uint32_t bit, const T& value);
-    template <typename T>
-    void append(const Key& key, Scope scope, Index owner, Index base, const T& value);
-    KeyedColumn& column(const Key& key, Scope scope, ValueType type, std::uint32_t bytes);
-    KeyedColumn& findColumn(const Key& key, Scope scope, ValueType type, std::uint32_t bytes);
-    bool charge(std::size_t bytes);
-    VertexRow& vertex() { return vertices_[vertex_]; }
+    void append(const Key& key, Scope scope, const T& value);
+    std::uint32_t findColumn(const Key& key, Scope scope, ValueType type);
+    std::uint32_t addColumn(const Key& key, Scope scope, ValueType type);
+    std::uint32_t countOf(std::uint32_t column) const;
+    template <typename Visit>
+    void readRecords(LogPosition from, LogPosition to, Visit&& visit) const;
+    LogPosition logEnd() const { return log_.position(next_); }
 
     RecordingShared& shared_;
     PagePool pool_;
@@ -139,19 +110,59 @@ class CursorImpl final : public Cursor {
     bool inPath_ = false;
     bool starved_ = false;  ///< the budget left no room for the current path or vertex itself
     bool byHandle_ = false;
-    Index path_ = kNone, vertex_ = kNone;
-    std::int32_t deepest_[2] = {};   ///< per subpath, of the current path
-    bool anyVertex_[2] = {};
+    Index path_ = kNone;
+    Index vertex_ = kNone;  ///< place in `visited_`; limit_ is set while there is one
+    struct Visited {
+        std::int32_t depth;
+        std::uint8_t flags;  ///< VertexFlag, as vertexFlags_
+    };
+    std::vector<Visited> visited_;  ///< the current path's vertices
+    static constexpr std::int64_t kNoDepth = std::numeric_limits<std::int64_t>::min();
+    std::int64_t deepest_[2] = {};  ///< of the current path, per subpath
+    bool ordered_ = true;           ///< its vertices were begun in the order of the result
 
+    std::byte* end_ = nullptr;      ///< of the room behind next_
+    RecordLog log_;
     PageRows<PathRow> paths_;
-    PageRows<VertexRow> vertices_;
-    PageColumn nextEvents_{sizeof(NextEvent)}, estimates_{sizeof(Color)}, emissions_{sizeof(Color)},
-        surfaces_{sizeof(SurfaceValue)}, events_{sizeof(EventValue)}, contributions_{sizeof(Contribution)},
-        splats_{sizeof(Splat)};
-    std::vector<std::unique_ptr<KeyedColumn>> columns_;
+    std::vector<UserColumn> columns_;
     std::vector<std::uint32_t> table_;  ///< open addressing over columns_
-    KeyedColumn* lastColumn_ = nullptr;
     Interner strings_;
 };
+
+/// Reads what the log holds, once more: visit(tag, value), where a user column's tag is its number behind firstUser.
+template <typename Visit>
+void CursorImpl::readRecords(LogPosition from, LogPosition to, Visit&& visit) const {
+    constexpr std::size_t kCoreBytes[] = {
+        0, sizeof(std::int32_t), sizeof(std::int32_t), sizeof(Index), 0,
+        sizeof(Vec3f), sizeof(NextEvent), sizeof(Color), sizeof(Color), sizeof(SurfaceValue), sizeof(EventValue),
+        sizeof(Contribution), sizeof(Splat), 0};
+    static_assert(std::size(kCoreBytes) == LogTag::firstUser);
+    const std::size_t place = shared_.options.locations ? sizeof(std::source_location) : 0;
+    log_.read(from, to, [&](const std::byte* at, const std::byte* end) {
+        while (at < end) {
+            std::uint16_t shortTag;
+            std::memcpy(&shortTag, at, sizeof shortTag);
+            at += sizeof shortTag;
+            std::uint32_t tag = shortTag;
+            if (tag == LogTag::wide) {
+                std::memcpy(&tag, at, sizeof tag);
+                tag += LogTag::firstUser;
+                at += sizeof tag;
+            }
+            std::size_t bytes;
+            if (tag < LogTag::firstUser) {
+                bytes = kCoreBytes[tag];
+            } else if (const ValueType type = columns_[tag - LogTag::firstUser].type; type != ValueType::spectrum) {
+                bytes = byteSize(type) + place;
+            } else {
+                std::uint32_t entries;
+                std::memcpy(&entries, at, sizeof entries);
+                bytes = sizeof entries + std::size_t(entries) * sizeof(float) + place;
+            }
+            visit(tag, at);
+            at += bytes;
+        }
+    });
+}
 
 }  // namespace emca::detail

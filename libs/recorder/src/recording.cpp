@@ -24,11 +24,16 @@ struct CoreName {
     std::uint32_t bit;
 };
 constexpr std::array kCoreNames{
-    CoreName{"origin", Core::origin},     CoreName{"estimate", Core::estimate},
-    CoreName{"position", Core::position}, CoreName{"nee", Core::nextEvent},
-    CoreName{"intersection estimate", Core::vertexEstimate}, CoreName{"emission", Core::emission},
-    CoreName{"surface", Core::surface},   CoreName{"event", Core::event},
-    CoreName{"contribution", Core::contribution}, CoreName{"splat", Core::splat},
+    CoreName{"origin", Core::origin},
+    CoreName{"estimate", Core::estimate},
+    CoreName{"position", 1u << LogTag::position},
+    CoreName{"nee", 1u << LogTag::nextEvent},
+    CoreName{"intersection estimate", 1u << LogTag::estimate},
+    CoreName{"emission", 1u << LogTag::emission},
+    CoreName{"surface", 1u << LogTag::surface},
+    CoreName{"event", 1u << LogTag::event},
+    CoreName{"contribution", 1u << LogTag::contribution},
+    CoreName{"splat", 1u << LogTag::splat},
 };
 
 }  // namespace

@@ -17,10 +17,9 @@ constexpr std::size_t kKeptBytes = 8u << 20;
 std::byte* fromSystem(std::size_t bytes) {
 #ifdef __linux__
     void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    return static_cast<std::byte*>(memory);
+    return memory == MAP_FAILED ? nullptr : static_cast<std::byte*>(memory);
 #else
-    return static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)));
+    return static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment), std::nothrow));
 #endif
 }
 
@@ -35,20 +34,25 @@ void toSystem(std::byte* slab, [[maybe_unused]] std::size_t bytes) {
 /// Slabs of the last recordings: a person clicks pixel after pixel.
 class KeptSlabs {
   public:
-    ~KeptSlabs() {
-        for (const auto& [slab, bytes] : slabs_) toSystem(slab, bytes);
-    }
-    std::byte* take(std::size_t bytes) {
+    ~KeptSlabs() { release(); }
+    void release() {
         const std::lock_guard lock(mutex_);
-        for (auto& entry : slabs_) {
-            if (entry.second != bytes) continue;
-            std::byte* slab = entry.first;
-            entry = slabs_.back();
-            slabs_.pop_back();
-            kept_ -= bytes;
-            return slab;
-        }
-        return nullptr;
+        for (const auto& [slab, bytes] : slabs_) toSystem(slab, bytes);
+        slabs_.clear();
+        kept_ = 0;
+    }
+    /// The smallest that is large enough and not twice too large.
+    Slab take(std::size_t bytes) {
+        const std::lock_guard lock(mutex_);
+        auto best = slabs_.end();
+        for (auto it = slabs_.begin(); it != slabs_.end(); ++it)
+            if (it->second >= bytes && it->second / 2 <= bytes && (best == slabs_.end() || it->second < best->second)) best = it;
+        if (best == slabs_.end()) return nullptr;
+        Slab slab(best->first, FreeSlab{best->second});
+        kept_ -= best->second;
+        *best = slabs_.back();
+        slabs_.pop_back();
+        return slab;
     }
     bool keep(std::byte* slab, std::size_t bytes) {
         const std::lock_guard lock(mutex_);
@@ -76,8 +80,11 @@ void FreeSlab::operator()(std::byte* slab) const {
 }
 
 Slab allocateSlab(std::size_t bytes) {
-    std::byte* slab = keptSlabs().take(bytes);
-    return Slab(slab ? slab : fromSystem(bytes), FreeSlab{bytes});
+    bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment;
+    if (Slab kept = keptSlabs().take(bytes)) return kept;
+    return Slab(fromSystem(bytes), FreeSlab{bytes});
 }
+
+void releaseKeptSlabs() { keptSlabs().release(); }
 
 }  // namespace emca::detail

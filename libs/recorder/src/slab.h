@@ -12,8 +12,10 @@ struct FreeSlab {
 using Slab = std::unique_ptr<std::byte, FreeSlab>;
 
 /// Memory straight from the system, page-aligned and already backed: touching it page by page costs several times as
-/// much as asking for all of it at once. Recently freed slabs are kept for the next recording, a few megabytes at most.
-/// Throws std::bad_alloc.
+/// much as asking for all of it at once. It may be up to twice as large as asked for; nullptr if the system has none.
+/// Freed slabs are kept for the next recording, of whatever thread: 8 MiB at most in the whole process.
 Slab allocateSlab(std::size_t bytes);
+/// Gives what is kept back to the system.
+void releaseKeptSlabs();
 
 }  // namespace emca::detail
