@@ -197,15 +197,15 @@ void Cursor::setEnvironmentPosition(Vec3f position) {
     setPosition(position);
 }
 
-/// What add() could not do: no vertex is open, or this part of the log is full.
-void Cursor::addSlowly(std::uint16_t tag, const void* value, std::size_t bytes) {
+bool Cursor::makeRoom(std::uint16_t tag, std::size_t bytes) {
     CursorImpl& c = impl(*this);
-    if (c.vertex_ == CursorImpl::kNone) return c.dropWithoutVertex();
-    if (!c.wants(tag) || !c.reserve(sizeof tag + bytes)) return;
+    if (c.vertex_ == CursorImpl::kNone) {
+        c.dropWithoutVertex();
+        return false;
+    }
+    if (!c.wants(tag) || !c.reserve(sizeof tag + bytes)) return false;
     ++coreCounts_[tag];
-    std::memcpy(next_, &tag, sizeof tag);
-    std::memcpy(next_ + sizeof tag, value, bytes);
-    next_ += sizeof tag + bytes;
+    return true;
 }
 
 void Cursor::setEvent(Event event, Lobe lobe, std::string_view label) {
@@ -233,20 +233,20 @@ std::uint32_t CursorImpl::countOf(std::uint32_t column) const {
     return c.count + (fast.id == id ? fast.count : 0);
 }
 
-std::uint32_t CursorImpl::findColumn(const Key& key, Scope scope, ValueType type) {
+std::uint32_t CursorImpl::findColumn(const KeyParts& key, Scope scope, ValueType type) {
     const std::size_t mask = table_.size() - 1;
-    for (std::size_t slot = columnId(key.hash(), scope, type) >> 32 & mask;; slot = (slot + 1) & mask) {
+    for (std::size_t slot = columnId(key.hash, scope, type) >> 32 & mask;; slot = (slot + 1) & mask) {
         const std::uint32_t index = table_[slot];
         if (index == kNone) return addColumn(key, scope, type);
         const UserColumn& found = columns_[index];
-        if (found.hash == key.hash() && found.type == type && found.scope == scope) return index;
+        if (found.hash == key.hash && found.type == type && found.scope == scope) return index;
     }
 }
 
-std::uint32_t CursorImpl::addColumn(const Key& key, Scope scope, ValueType type) {
+std::uint32_t CursorImpl::addColumn(const KeyParts& key, Scope scope, ValueType type) {
     const auto index = static_cast<std::uint32_t>(columns_.size());
-    const bool wanted = shared_.choice.wantsKey(key.text());
-    columns_.push_back({key.hash(), scope, type, wanted, std::string(key.text())});
+    const bool wanted = shared_.choice.wantsKey(key.text);
+    columns_.push_back({key.hash, scope, type, wanted, std::string(key.text)});
     const auto enter = [&](std::uint32_t i) {
         const std::size_t mask = table_.size() - 1;
         std::size_t slot = columnId(columns_[i].hash, columns_[i].scope, columns_[i].type) >> 32 & mask;
@@ -258,7 +258,7 @@ std::uint32_t CursorImpl::addColumn(const Key& key, Scope scope, ValueType type)
         for (std::uint32_t i = 0; i < index; ++i) enter(i);
     }
     enter(index);
-    const std::uint64_t id = columnId(key.hash(), scope, type);
+    const std::uint64_t id = columnId(key.hash, scope, type);
     FastColumn& fast = fastColumns_[id >> kFastShift];
     // Source lines are written only on the slow way.
     if (fast.id == 0 && !isWide(index) && !shared_.options.locations)
@@ -267,9 +267,9 @@ std::uint32_t CursorImpl::addColumn(const Key& key, Scope scope, ValueType type)
 }
 
 template <typename T>
-void CursorImpl::append(const Key& key, Scope scope, const T& value) {
+void CursorImpl::append(const KeyParts& key, Scope scope, const T& value) {
     constexpr ValueType kType = storedType<T>();
-    const std::uint64_t id = columnId(key.hash(), scope, kType);
+    const std::uint64_t id = columnId(key.hash, scope, kType);
     FastColumn& fast = fastColumns_[id >> kFastShift];
     std::uint32_t column = fast.tag - LogTag::firstUser;
     std::uint32_t* count = &fast.count;
@@ -283,7 +283,7 @@ void CursorImpl::append(const Key& key, Scope scope, const T& value) {
     const auto write = [&](const auto&... parts) {
         const bool wide = isWide(column), located = shared_.options.locations;
         const std::uint16_t tag = wide ? std::uint16_t(LogTag::wide) : static_cast<std::uint16_t>(LogTag::firstUser + column);
-        const std::source_location& where = key.where();
+        const std::source_location& where = key.where;
         if (!reserve((sizeof tag + ... + parts.size()) + (wide ? sizeof column : 0) + (located ? sizeof where : 0))) return;
         const auto put = [&](std::span<const std::byte> bytes) {
             if (!bytes.empty()) std::memcpy(next_, bytes.data(), bytes.size());
@@ -313,21 +313,21 @@ template <typename T>
 void Cursor::addPathData(Key key, T value) {
     CursorImpl& c = impl(*this);
     if (!c.inPath_) return c.dropWithoutPath();
-    c.append(key, Scope::path, value);
+    c.append({key.text(), key.hash(), key.where()}, Scope::path, value);
 }
 
 /// What addVertexData() could not do: a text or a spectrum, a column that is new or whose place is taken, no vertex, or
 /// no room.
 template <typename T>
-void Cursor::addVertexDataSlowly(Key key, T value) {
+void Cursor::addVertexDataSlowly(std::string_view key, std::uint64_t hash, std::source_location where, T value) {
     CursorImpl& c = impl(*this);
     if (c.vertex_ == CursorImpl::kNone) return c.dropWithoutVertex();
-    c.append(key, Scope::vertex, value);
+    c.append({key, hash, where}, Scope::vertex, value);
 }
 
-#define EMCA_STORED_TYPE(T)                             \
-    template void Cursor::addPathData<T>(Key, T);       \
-    template void Cursor::addVertexDataSlowly<T>(Key, T)
+#define EMCA_STORED_TYPE(T)                       \
+    template void Cursor::addPathData<T>(Key, T); \
+    template void Cursor::addVertexDataSlowly<T>(std::string_view, std::uint64_t, std::source_location, T)
 EMCA_STORED_TYPE(bool);
 EMCA_STORED_TYPE(std::int64_t);
 EMCA_STORED_TYPE(Vec2i);

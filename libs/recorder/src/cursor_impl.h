@@ -59,6 +59,13 @@ struct PathRow {
     std::uint8_t flags = 0;     ///< PathFlag
 };
 
+/// What a Key says.
+struct KeyParts {
+    std::string_view text;
+    std::uint64_t hash;
+    std::source_location where;
+};
+
 /// A user column of one thread.
 struct UserColumn {
     std::uint64_t hash;         ///< of the key
@@ -93,9 +100,9 @@ class CursorImpl final : public Cursor {
     bool reserve(std::size_t bytes);
     bool wants(std::uint16_t coreTag) const { return (wanted_ >> coreTag & 1) != 0; }
     template <typename T>
-    void append(const Key& key, Scope scope, const T& value);
-    std::uint32_t findColumn(const Key& key, Scope scope, ValueType type);
-    std::uint32_t addColumn(const Key& key, Scope scope, ValueType type);
+    void append(const KeyParts& key, Scope scope, const T& value);
+    std::uint32_t findColumn(const KeyParts& key, Scope scope, ValueType type);
+    std::uint32_t addColumn(const KeyParts& key, Scope scope, ValueType type);
     std::uint32_t countOf(std::uint32_t column) const;
     template <typename Visit>
     void readRecords(LogPosition from, LogPosition to, Visit&& visit) const;

@@ -40,10 +40,12 @@ class ResultMemory {
     }
 
   private:
-    static constexpr std::size_t kSmallest = 4096, kLargest = 64 * 4096, kAlignment = 64;
+    static constexpr std::size_t kSmallest = 4096, kLargest = 64 * 4096, kAlignment = 64, kGap = 3 * kAlignment;
 
     std::byte* takeBytes(std::size_t bytes) {
-        bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment;
+        // The gap: arrays of equal entries are filled side by side, and beginnings a power of two apart would compete for
+        // the same few lines of the cache.
+        bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment + kGap;
         if (bytes > left_) {
             left_ = std::max(bytes, blockBytes_);
             if (Slab slab = left_ < kLargest ? Slab() : allocateSlab(left_)) {

@@ -9,13 +9,15 @@ struct FreeSlab {
     std::size_t bytes = 0;
     void operator()(std::byte* slab) const;
 };
+/// Its deleter knows its size.
 using Slab = std::unique_ptr<std::byte, FreeSlab>;
 
-/// Memory straight from the system, page-aligned and already backed: touching it page by page costs several times as
-/// much as asking for all of it at once. It may be up to twice as large as asked for; nullptr if the system has none.
-/// Freed slabs are kept for the next recording, of whatever thread: 8 MiB at most in the whole process.
+/// Memory of recordings and of their results, 64-byte aligned, rounded up to pieces of 64 KiB; nullptr if the system
+/// has none. Any thread. Pieces are cut from blocks of 2 MiB, one huge page each where the system has them: a fresh page
+/// of 4 KiB costs as much as recording 7 intersections. What is freed serves later recordings of any thread; of blocks
+/// that nobody uses, the process keeps 8 MiB.
 Slab allocateSlab(std::size_t bytes);
-/// Gives what is kept back to the system.
+/// Gives the blocks that nobody uses back to the system.
 void releaseKeptSlabs();
 
 }  // namespace emca::detail

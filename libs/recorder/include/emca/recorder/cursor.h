@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <source_location>
 #include <span>
 #include <string_view>
 
@@ -58,7 +59,7 @@ class Cursor {
         add(LogTag::position, position);
     }
     void setEnvironmentPosition(Vec3f position);
-    void addNextEvent(Vec3f position, bool visible) { add(LogTag::nextEvent, NextEvent{position, visible ? 1u : 0u}); }
+    void addNextEvent(Vec3f position, bool visible) { add(LogTag::nextEvent, position, visible ? 1u : 0u); }
     void setSurface(std::int32_t mesh, std::int32_t face) { add(LogTag::surface, SurfaceValue{mesh, face}); }
     void setEvent(Event event, Lobe lobe, std::string_view label);
     void setEstimate(Color estimate) { add(LogTag::estimate, estimate); }
@@ -79,7 +80,7 @@ class Cursor {
                 return put(column.tag, value);
             }
         }
-        addVertexDataSlowly(key, value);
+        addVertexDataSlowly(key.text(), key.hash(), key.where(), value);
     }
 
   protected:
@@ -105,25 +106,29 @@ class Cursor {
         const auto left = reinterpret_cast<std::uintptr_t>(limit_) - reinterpret_cast<std::uintptr_t>(next_);
         return static_cast<std::intptr_t>(left) >= static_cast<std::intptr_t>(sizeof(std::uint16_t) + bytes);
     }
-    template <typename T>
-    void put(std::uint16_t tag, const T& value) {
-        std::byte* const at = next_;
+    /// Values one by one: to put them together first costs more than to store them.
+    template <typename... T>
+    void put(std::uint16_t tag, const T&... values) {
+        std::byte* at = next_;
         std::memcpy(at, &tag, sizeof tag);
-        std::memcpy(at + sizeof tag, &value, sizeof value);
-        next_ = at + sizeof tag + sizeof value;
+        at += sizeof tag;
+        ((std::memcpy(at, &values, sizeof values), at += sizeof values), ...);
+        next_ = at;
     }
-    template <typename T>
-    void add(std::uint16_t tag, const T& value) {
-        if (hasRoom(sizeof value)) [[likely]] {
+    template <typename... T>
+    void add(std::uint16_t tag, const T&... values) {
+        if (hasRoom((sizeof values + ...))) [[likely]] {
             if (!(wanted_ >> tag & 1)) return;
             ++coreCounts_[tag];
-            return put(tag, value);
+            return put(tag, values...);
         }
-        addSlowly(tag, &value, sizeof value);
+        if (makeRoom(tag, (sizeof values + ...))) put(tag, values...);
     }
-    void addSlowly(std::uint16_t tag, const void* value, std::size_t bytes);
+    /// What add() could not do: no vertex is open, or this part of the log is full. True if there is room now.
+    bool makeRoom(std::uint16_t tag, std::size_t bytes);
+    // Keys in parts, which travel in registers.
     template <typename T>
-    void addVertexDataSlowly(Key key, T value);
+    void addVertexDataSlowly(std::string_view key, std::uint64_t hash, std::source_location where, T value);
 
     std::byte* next_ = nullptr;   ///< of the log
     std::byte* limit_ = nullptr;  ///< where the log has no more room; nullptr if no vertex is open

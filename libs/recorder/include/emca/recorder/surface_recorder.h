@@ -16,7 +16,10 @@ namespace emca {
 
 namespace detail {
 struct SurfaceCursorState;
+struct SurfaceCursorImpl;
 }
+
+constexpr std::size_t kMaxSurfaceLayers = 4096;  ///< of one recorder
 
 /// The geometry of one mesh, as the renderer holds it: world space, scene units. Must outlive the recorder.
 struct SurfaceMeshView {
@@ -91,8 +94,8 @@ class SurfaceCursor {
 
   private:
     friend class SurfaceRecorder;
-    friend struct detail::SurfaceCursorState;
     SurfaceCursor() = default;
+    SurfacePoint place(std::uint64_t face, std::uint32_t u, std::uint32_t v);
     detail::SurfaceCursorState* state_ = nullptr;
 };
 
@@ -129,7 +132,7 @@ class SurfaceRecorder {
     SurfaceRecorder& operator=(const SurfaceRecorder&) = delete;
 
     /// Before any thread calls cursor(). Errors: invalidArgument (name empty or taken, called after cursor()), tooLarge
-    /// (more layers than fit a record: about 4000).
+    /// (more than kMaxSurfaceLayers).
     Result<SurfaceLayer> addLayer(LayerDescription description);
 
     /// This thread's cursor: fetch it once per path or tile. Valid until the thread or the recorder ends.
@@ -150,7 +153,7 @@ class SurfaceRecorder {
 
   private:
     struct Impl;
-    std::shared_ptr<Impl> impl_;
+    std::unique_ptr<Impl> impl_;
 };
 
 namespace detail {
@@ -158,6 +161,7 @@ namespace detail {
 /// What the inline part of SurfaceLayer::add needs of a thread's cursor.
 struct SurfaceCursorState {
     const std::uint32_t* serials = nullptr;  ///< per shard: number of the block that is open
+    SurfaceCursorImpl* impl = nullptr;       ///< all the rest
     /// Adds a value whose block is gone, or whose place in the record is taken, or which is not finite.
     static void addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value);
 };

@@ -1,0 +1,255 @@
+#include "emca/recorder/surface_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <thread>
+
+#include "emca/core/surface_tree.h"
+#include "surface_store.h"
+
+namespace emca {
+namespace detail {
+
+SurfaceCursorImpl::SurfaceCursorImpl(SurfaceStore& owner)
+    : store(owner), serialNumbers(owner.shardCount(), 1), open(owner.shardCount()) {
+    serials = serialNumbers.data();
+    impl = this;
+}
+
+SurfaceCursorImpl::~SurfaceCursorImpl() {
+    for (SurfaceBlock* block : blocks) ::operator delete(block);
+}
+
+std::uint32_t* SurfaceCursorImpl::append(std::uint32_t face, std::uint32_t u, std::uint32_t v, std::uint32_t shard) {
+    Open& to = open[shard];
+    const std::uint32_t words = store.recordWords();
+    if (static_cast<std::size_t>(to.end - to.next) < words) [[unlikely]] replaceBlock(shard);
+    std::uint32_t* record = to.next;
+    to.next += words;
+    record[0] = face;
+    record[1] = u;
+    record[2] = v;
+    // The masks; values are read only where a mask says so.
+    for (const std::uint16_t word : store.maskWords()) record[word] = 0;
+    return record;
+}
+
+void SurfaceCursorImpl::replaceBlock(std::uint32_t shard) {
+    Open& to = open[shard];
+    if (to.block != nullptr) {
+        to.block->words = static_cast<std::uint32_t>(to.next - to.block->data());
+        store.submit(to.block, shard);
+        ++serialNumbers[shard];
+    }
+    to.block = newBlock();
+    to.next = to.block->data();
+    to.end = to.next + (store.blockBytes() - sizeof(SurfaceBlock)) / sizeof(std::uint32_t);
+}
+
+SurfaceBlock* SurfaceCursorImpl::newBlock() {
+    for (;;) {
+        if (freeBlocks == nullptr) freeBlocks = returned.exchange(nullptr, std::memory_order_acquire);
+        if (freeBlocks != nullptr) {
+            SurfaceBlock* block = freeBlocks;
+            freeBlocks = block->next;
+            return block;
+        }
+        if (blocks.size() < store.blocksPerCursor()) {
+            void* memory = ::operator new(store.blockBytes());
+            store.addUsed(store.blockBytes());
+            auto* block = new (memory) SurfaceBlock{nullptr, this, 0};
+            blocks.push_back(block);
+            return block;
+        }
+        // As many blocks as are open at once wait at owners, which other threads are: a thread that outruns them works
+        // for them, and only if there is nothing to take over gives them time.
+        if (!store.help()) std::this_thread::yield();
+    }
+}
+
+void SurfaceCursorState::addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value) {
+    SurfaceCursorImpl& cursor = *at.cursor_->impl;
+    if (!finiteBits(value.r) || !finiteBits(value.g) || !finiteBits(value.b)) return cursor.countInvalid();
+    std::uint32_t* record = cursor.append(at.face_, at.u_, at.v_ | kNotCounted, at.shard_);
+    record[layer.maskWord_] |= 1u << layer.bit_;
+    record[layer.value_] = std::bit_cast<std::uint32_t>(value.r);
+    if (layer.channels_ == 1) return;
+    record[layer.value_ + 1] = std::bit_cast<std::uint32_t>(value.g);
+    record[layer.value_ + 2] = std::bit_cast<std::uint32_t>(value.b);
+}
+
+SurfaceCursorImpl* SurfaceStore::acquire() {
+    const std::lock_guard lock(cursorsMutex_);
+    if (!isSetUp()) setUp();
+    if (!idle_.empty()) {
+        SurfaceCursorImpl* cursor = idle_.back();
+        idle_.pop_back();
+        return cursor;
+    }
+    return cursors_.emplace_back(std::make_unique<SurfaceCursorImpl>(*this)).get();
+}
+
+void SurfaceStore::release(SurfaceCursorImpl* cursor) {
+    const std::lock_guard lock(cursorsMutex_);
+    idle_.push_back(cursor);
+}
+
+void SurfaceStore::flush() {
+    const std::lock_guard lock(cursorsMutex_);
+    for (const auto& cursor : cursors_)
+        for (std::uint32_t shard = 0; shard < shardCount_; ++shard) {
+            SurfaceCursorImpl::Open& open = cursor->open[shard];
+            if (open.block == nullptr) continue;
+            open.block->words = static_cast<std::uint32_t>(open.next - open.block->data());
+            submit(open.block, shard);
+            open = {};
+            ++cursor->serialNumbers[shard];
+        }
+}
+
+namespace {
+
+/// The cursors of this thread, most recent last; given back when the thread ends.
+struct ThreadCursors {
+    struct Entry {
+        const void* recorder;
+        std::weak_ptr<SurfaceStore> store;
+        SurfaceCursorImpl* cursor;
+        std::unique_ptr<SurfaceCursor> handle;
+    };
+    std::vector<Entry> entries;
+
+    ~ThreadCursors() {
+        for (Entry& entry : entries)
+            if (const auto store = entry.store.lock()) store->release(entry.cursor);
+    }
+};
+
+thread_local ThreadCursors threadCursors;
+
+}  // namespace
+}  // namespace detail
+
+struct SurfaceRecorder::Impl {
+    std::shared_ptr<detail::SurfaceStore> store;
+};
+
+SurfaceRecorder::SurfaceRecorder(std::vector<SurfaceMeshView> meshes, SurfaceOptions options)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->store = std::make_shared<detail::SurfaceStore>(std::move(meshes), options);
+}
+
+namespace {
+
+std::vector<SurfaceMeshView> views(std::span<const Mesh> meshes) {
+    std::vector<SurfaceMeshView> out;
+    for (const Mesh& mesh : meshes) out.push_back({mesh.positions, mesh.triangles});
+    return out;
+}
+
+}  // namespace
+
+SurfaceRecorder::SurfaceRecorder(std::span<const Mesh> meshes, SurfaceOptions options)
+    : SurfaceRecorder(views(meshes), options) {}
+
+SurfaceRecorder::~SurfaceRecorder() = default;
+
+Result<SurfaceLayer> SurfaceRecorder::addLayer(LayerDescription description) {
+    detail::SurfaceStore& store = *impl_->store;
+    const auto refuse = [&](ErrorCode code, const char* why) {
+        return Error{code, "Surface layer \"" + description.name + "\" cannot be added: " + why};
+    };
+    if (description.name.empty()) return refuse(ErrorCode::invalidArgument, "give it a name.");
+    if (description.kind > LayerKind::density) return refuse(ErrorCode::invalidArgument, "its kind does not exist.");
+    if (store.isSetUp())
+        return refuse(ErrorCode::invalidArgument, "threads may already be recording; add all layers before cursor().");
+    for (const LayerDescription& other : store.descriptions())
+        if (other.name == description.name)
+            return refuse(ErrorCode::invalidArgument, "there is one of this name; choose another.");
+    if (store.descriptions().size() >= kMaxSurfaceLayers)
+        return refuse(ErrorCode::tooLarge, "there are already as many as a recorder holds; use a second recorder.");
+    SurfaceLayer layer;
+    layer.recorder_ = &store;
+    layer.index_ = static_cast<std::uint16_t>(store.descriptions().size());
+    const detail::SurfaceLayerLayout& layout = store.addLayer(std::move(description));
+    layer.maskWord_ = layout.maskWord;
+    layer.value_ = layout.valueWord;
+    layer.bit_ = layout.bit;
+    layer.channels_ = layout.channels;
+    return layer;
+}
+
+SurfaceCursor& SurfaceRecorder::cursor() {
+    auto& entries = detail::threadCursors.entries;
+    const detail::SurfaceStore* store = impl_->store.get();
+    if (!entries.empty() && entries.back().recorder == store && !entries.back().store.expired())
+        return *entries.back().handle;
+    // An address may have been used again, so only what is alive counts.
+    std::erase_if(entries, [](const auto& entry) { return entry.store.expired(); });
+    const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.recorder == store; });
+    if (found != entries.end()) {
+        std::rotate(found, found + 1, entries.end());
+        return *entries.back().handle;
+    }
+    auto handle = std::unique_ptr<SurfaceCursor>(new SurfaceCursor);
+    if (store->descriptions().empty()) {
+        static SurfaceCursor nothingAskedFor;
+        return nothingAskedFor;
+    }
+    detail::SurfaceCursorImpl* cursor = impl_->store->acquire();
+    handle->state_ = cursor;
+    entries.push_back({store, impl_->store, cursor, std::move(handle)});
+    return *entries.back().handle;
+}
+
+SurfacePoint SurfaceCursor::place(std::uint64_t face, std::uint32_t u, std::uint32_t v) {
+    detail::SurfaceCursorImpl& cursor = *state_->impl;
+    SurfacePoint at;
+    at.cursor_ = state_;
+    at.face_ = static_cast<std::uint32_t>(face);
+    at.u_ = u;
+    at.v_ = v;
+    at.shard_ = cursor.store.shardOf(at.face_);
+    at.record_ = cursor.append(at.face_, u, v, at.shard_);
+    at.serial_ = cursor.serialNumbers[at.shard_];
+    return at;
+}
+
+SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
+    if (state_ == nullptr) return {};
+    detail::SurfaceCursorImpl& cursor = *state_->impl;
+    const auto& starts = cursor.store.faceStarts();
+    if (mesh >= cursor.store.meshes().size() || face >= starts[mesh + 1] - starts[mesh] ||
+        starts[mesh] + face > 0xffffffffu || !detail::finiteBits(barycentrics.x) || !detail::finiteBits(barycentrics.y)) {
+        cursor.countInvalid();
+        return {};
+    }
+    std::uint32_t u = 0, v = 0;
+    detail::toFixed(barycentrics.x, barycentrics.y, u, v);
+    return place(starts[mesh] + face, u, v);
+}
+
+SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f position) {
+    if (state_ == nullptr) return {};
+    const detail::SurfaceStore& store = state_->impl->store;
+    Vec2f at;
+    if (mesh < store.meshes().size() && face < store.meshes()[mesh].triangles.size()) {
+        if (!detail::finiteBits(position.x) || !detail::finiteBits(position.y) || !detail::finiteBits(position.z))
+            at.x = std::numeric_limits<float>::quiet_NaN();
+        else
+            at = store.barycentrics(mesh, face, position);
+    }
+    return locate(mesh, face, at);
+}
+
+SurfaceField SurfaceRecorder::finish() {
+    detail::SurfaceStore& store = *impl_->store;
+    if (store.isSetUp()) store.flush();
+    return detail::makeField(store);
+}
+
+SurfaceCounts SurfaceRecorder::counts() const { return impl_->store->counts(); }
+const std::vector<LayerDescription>& SurfaceRecorder::layers() const { return impl_->store->descriptions(); }
+
+}  // namespace emca

@@ -1,0 +1,200 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emca/recorder/surface_recorder.h"
+
+namespace emca::detail {
+
+struct SurfaceCursorImpl;
+
+/// A triangle of the subdivision with what was added to it while it was not divided. The layers' cells follow, so that a
+/// sample touches one or a few neighbouring cache lines. Only the owner of its shard reads or writes it.
+struct SurfaceNode {
+    std::uint64_t points;
+    SurfaceNode* children;  ///< four, one after the other; null: none yet
+};
+
+/// What one layer knows of one node, followed by `channels` sums. Doubles: a float stops counting at 2^24.
+struct SurfaceCell {
+    std::uint64_t count;
+    double sums[1];
+};
+
+/// Where a layer is in nodes and in records.
+struct SurfaceLayerLayout {
+    std::uint32_t cell = 0;  ///< byte offset in a node
+    std::uint16_t maskWord = 0, valueWord = 0;
+    std::uint8_t bit = 0, channels = 1;
+};
+
+/// What a thread has to say about one point: global face, u, v in units of 2^-30, then for each 32 layers a word that
+/// tells which values are there, and room for all values. The highest bit of v: not counted, as its point already is.
+constexpr std::uint32_t kRecordHeaderWords = 3;
+constexpr std::uint32_t kNotCounted = 1u << 31;
+
+/// Records for one shard, on their way from the thread that made them to whoever applies them.
+struct SurfaceBlock {
+    SurfaceBlock* next;       ///< in the shard's list of waiting blocks, or in the home's list of free ones
+    SurfaceCursorImpl* home;  ///< where it returns when its records are applied
+    std::uint32_t words;      ///< used
+    std::uint32_t* data() { return reinterpret_cast<std::uint32_t*>(this + 1); }
+};
+
+/// A part of all faces that one thread at a time may change. Handing over is a stack that anybody pushes to and the owner
+/// takes as a whole; whoever pushes and finds no owner becomes it. Each thread goes on at once in either case.
+struct alignas(64) SurfaceShard {
+    std::atomic<SurfaceBlock*> waiting{nullptr};
+    std::atomic<bool> busy{false};
+    // The rest is the owner's. Counters are read by counts(), hence atomic; only the owner writes them.
+    std::byte* free = nullptr;     ///< of the chunk that new nodes come from
+    std::byte* freeEnd = nullptr;
+    std::atomic<std::uint64_t> points{0}, coarse{0}, refused{0};
+};
+
+/// Layout, memory and ownership of everything that a SurfaceRecorder collects.
+class SurfaceStore {
+  public:
+    SurfaceStore(std::vector<SurfaceMeshView> meshes, SurfaceOptions options);
+    ~SurfaceStore();
+    SurfaceStore(const SurfaceStore&) = delete;
+
+    /// Appends a layer. Not after setUp().
+    const SurfaceLayerLayout& addLayer(LayerDescription description);
+    /// Divides the budget, once all layers are known.
+    void setUp();
+    bool isSetUp() const { return shardCount_ > 0; }
+
+    SurfaceCursorImpl* acquire();            ///< a cursor that no other thread uses
+    void release(SurfaceCursorImpl* cursor);
+
+    /// Hands a full block over, and applies what waits for the shard if nobody else does.
+    void submit(SurfaceBlock* block, std::uint32_t shard);
+    /// Applies waiting blocks of any shard that has no owner. False if there was nothing to do.
+    bool help();
+    /// Applies everything that threads hold back. No thread may be recording.
+    void flush();
+
+    std::uint32_t shardOf(std::uint32_t face) const {
+        const std::uint32_t run = static_cast<std::uint32_t>(std::uint64_t(face) >> (pageBits_ + runBits_));
+        return (run ^ run >> 7 ^ run >> 13) & (shardCount_ - 1);
+    }
+    /// Mesh that a global face belongs to.
+    std::uint32_t meshOf(std::uint32_t face) const;
+    /// World-space area of a face of the scene; 0 if it has none or a vertex is missing or not finite.
+    double area(std::uint32_t mesh, std::uint32_t face) const;
+    /// Weights of a face's second and third vertex at a place; 0, 0 if it has no area.
+    Vec2f barycentrics(std::uint32_t mesh, std::uint32_t face, Vec3f position) const;
+
+    // For post-processing, while no thread records.
+    const SurfaceNode* root(std::uint32_t face) const;
+    const SurfaceNode* bin(std::uint32_t face) const { return bins_ ? bins_[run(face)] : nullptr; }
+    std::uint64_t runCount() const { return runCount_; }
+    const SurfaceNode* binOfRun(std::uint64_t index) const { return bins_[index]; }
+    std::uint64_t run(std::uint32_t face) const { return std::uint64_t(face) >> (pageBits_ + runBits_); }
+    std::uint64_t facesPerRun() const { return std::uint64_t(1) << (pageBits_ + runBits_); }
+    /// Makes the root of a face exist, for tests that begin with full counters.
+    SurfaceNode* rootForTest(std::uint32_t face);
+
+    static const SurfaceNode* child(const SurfaceNode* node, std::uint32_t i, std::size_t bytes) {
+        return reinterpret_cast<const SurfaceNode*>(reinterpret_cast<const std::byte*>(node->children) + i * bytes);
+    }
+    static bool isDivided(const SurfaceNode* node) { return node->children > kFinal; }
+    template <typename Cell, typename Node>
+    static Cell* cell(Node* node, const SurfaceLayerLayout& layer) {
+        using Byte = std::conditional_t<std::is_const_v<Node>, const std::byte, std::byte>;
+        return reinterpret_cast<Cell*>(reinterpret_cast<Byte*>(node) + layer.cell);
+    }
+
+    SurfaceCounts counts() const;
+    const SurfaceOptions& options() const { return options_; }
+    const std::vector<SurfaceMeshView>& meshes() const { return meshes_; }
+    const std::vector<std::uint64_t>& faceStarts() const { return faceStarts_; }  ///< per mesh, and the end
+    const std::vector<LayerDescription>& descriptions() const { return descriptions_; }
+    const std::vector<SurfaceLayerLayout>& layouts() const { return layouts_; }
+    std::size_t nodeBytes() const { return nodeBytes_; }
+    std::uint32_t recordWords() const { return recordWords_; }
+    const std::vector<std::uint16_t>& maskWords() const { return maskWords_; }  ///< of a record, one for 32 layers
+    std::uint32_t shardCount() const { return shardCount_; }
+    std::size_t blockBytes() const { return blockBytes_; }
+    std::uint32_t blocksPerCursor() const { return 2 * shardCount_; }
+    void addUsed(std::size_t bytes) { bytesUsed_.fetch_add(bytes, std::memory_order_relaxed); }
+
+  private:
+    struct Page { SurfaceNode* roots[1]; };
+    struct Lane;
+    static SurfaceNode* const kFinal;  ///< in SurfaceNode::children: never divides
+
+    void divideBudget();
+    void applyWaiting(SurfaceShard& shard);
+    void apply(SurfaceShard& shard, SurfaceBlock& block);
+    std::uint32_t enter(SurfaceShard& shard, const std::uint32_t* records, std::uint32_t count, Lane* lanes);
+    void addRecord(SurfaceShard& shard, Lane& lane);
+    void divide(SurfaceShard& shard, SurfaceNode* node, std::uint32_t face, std::uint32_t level);
+    SurfaceNode* rootOrBin(SurfaceShard& shard, std::uint32_t face);
+    SurfaceNode* binOf(std::uint32_t face);
+    std::byte* allocate(SurfaceShard& shard, std::size_t bytes);  ///< zeros; null beyond the budget
+    bool nextChunk(SurfaceShard& shard);
+
+    std::vector<SurfaceMeshView> meshes_;
+    SurfaceOptions options_;
+    std::vector<std::uint64_t> faceStarts_;
+    std::uint64_t faceCount_ = 0;
+    double minimumArea_ = 0;
+
+    std::vector<LayerDescription> descriptions_;
+    std::vector<SurfaceLayerLayout> layouts_;
+    std::vector<std::uint16_t> maskWords_;
+    std::size_t nodeBytes_ = sizeof(SurfaceNode);
+    std::uint32_t recordWords_ = kRecordHeaderWords;
+
+    std::uint32_t pageBits_ = 0, runBits_ = 0, shardCount_ = 0;
+    std::size_t blockBytes_ = 0, chunkBytes_ = 0, chunksPerSlab_ = 1, pageBytes_ = 0;
+    std::uint64_t chunkCount_ = 0;
+    bool storesFaces_ = true;  ///< false if the budget does not even hold a table of faces: bins only
+    std::unique_ptr<SurfaceShard[]> shards_;
+    std::unique_ptr<Page*[]> pages_;        ///< 2^pageBits faces each; written by the owner of their shard
+    std::unique_ptr<SurfaceNode*[]> bins_;  ///< one per run of 2^runBits pages, for faces without storage
+    std::unique_ptr<std::atomic<std::byte*>[]> slabs_;
+    std::uint64_t slabCount_ = 0, runCount_ = 0;
+    std::atomic<std::uint64_t> nextChunk_{0};
+    std::atomic<std::uint64_t> bytesUsed_{0};
+
+    mutable std::mutex cursorsMutex_;  // threads come and go rarely
+    std::vector<std::unique_ptr<SurfaceCursorImpl>> cursors_;
+    std::vector<SurfaceCursorImpl*> idle_;
+};
+
+/// One thread's open blocks, one per shard.
+struct SurfaceCursorImpl : SurfaceCursorState {
+    explicit SurfaceCursorImpl(SurfaceStore& owner);
+    ~SurfaceCursorImpl();
+
+    struct Open { std::uint32_t* next = nullptr; std::uint32_t* end = nullptr; SurfaceBlock* block = nullptr; };
+
+    /// A new record with no values.
+    std::uint32_t* append(std::uint32_t face, std::uint32_t u, std::uint32_t v, std::uint32_t shard);
+    void replaceBlock(std::uint32_t shard);
+    SurfaceBlock* newBlock();
+    void countInvalid() { invalid.store(invalid.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
+
+    SurfaceStore& store;
+    std::vector<std::uint32_t> serialNumbers;
+    std::vector<Open> open;
+    std::atomic<SurfaceBlock*> returned{nullptr};  ///< blocks of ours that others have applied
+    SurfaceBlock* freeBlocks = nullptr;
+    std::vector<SurfaceBlock*> blocks;             ///< all of ours
+    std::atomic<std::uint64_t> invalid{0};
+};
+
+/// Post-processing; see SurfaceRecorder::finish.
+SurfaceField makeField(const SurfaceStore& store);
+
+}  // namespace emca::detail
