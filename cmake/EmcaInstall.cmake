@@ -15,5 +15,5 @@ configure_package_config_file(cmake/emcaConfig.cmake.in ${CMAKE_CURRENT_BINARY_D
   INSTALL_DESTINATION ${EMCA_PACKAGE_DIR})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/emcaConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/emcaConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/emcaConfigVersion.cmake
-  cmake/EmcaOpenImageIO.cmake DESTINATION ${EMCA_PACKAGE_DIR})
+  cmake/EmcaOpenEXR.cmake DESTINATION ${EMCA_PACKAGE_DIR})
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/emca/scenes)

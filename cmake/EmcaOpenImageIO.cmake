@@ -1,5 +1,5 @@
-# Finds OpenImageIO for us and for those who link emca::imageio. Not by its own CMake package: Debian's names folders and
-# programs of packages that it does not depend on, and CMake stops where they are absent.
+# Finds OpenImageIO. Not by its own CMake package: Debian's names folders and programs of packages that it does not
+# depend on, and CMake stops where they are absent.
 if(NOT TARGET OpenImageIO::OpenImageIO)
   find_path(EMCA_OPENIMAGEIO_INCLUDE OpenImageIO/imageio.h)
   find_library(EMCA_OPENIMAGEIO_LIBRARY OpenImageIO)

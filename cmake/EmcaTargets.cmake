@@ -12,6 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports these from inside the standard library at -O2 and above.
   target_compile_options(emca_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-null-dereference -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized>)
 endif()
+# A library that a package's CMake file names but that no code of ours calls would cost time at each start.
+target_link_options(emca_flags INTERFACE LINKER:--as-needed)
 if(EMCA_SANITIZE)
   target_compile_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE})

@@ -61,6 +61,7 @@ int serve(const std::shared_ptr<const render::Scene>& scene, const render::Rende
 int run(const CommandLine& line) {
     std::optional<EndingSignal> ending;
     if (line.serve) ending.emplace();
+    if (line.output) imageio::prepareFor(*line.output);
     render::SceneOptions sceneOptions;
     sceneOptions.defines = line.defines;
     sceneOptions.width = line.size.width;

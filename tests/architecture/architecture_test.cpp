@@ -26,9 +26,9 @@ const std::map<std::string, Rule>& rules() {
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
         {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio"}}},
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h"}}},
-        {"libs/imageio", {{"core", "imageio"}, {"OpenImageIO/"}}},
+        {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "dlfcn.h"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
-        {"libs/render", {{"core", "recorder", "imageio", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h", "OpenImageIO/"}}},
+        {"libs/render", {{"core", "recorder", "imageio", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h"}}},
         {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},
         {"apps/cli", {{"core", "client", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
         {"apps/explorer", {{"core", "client", "analysis", "imageio"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
@@ -109,6 +109,16 @@ TEST(Architecture, VtkStaysInItsFolder) {
         if (!isSource(entry.path()) || entry.path().generic_string().find("/explorer/scene/") != std::string::npos) continue;
         for (const auto& [angled, header] : includesOf(entry.path()))
             EXPECT_FALSE(header.rfind("vtk", 0) == 0 || header.rfind("QVTK", 0) == 0) << fs::relative(entry.path(), root) << ": " << header;
+    }
+}
+
+/// Programs load OpenImageIO and what hangs on it only when they need it.
+TEST(Architecture, OpenImageIoStaysInItsModule) {
+    const fs::path root = EMCA_SOURCE_DIR;
+    for (const auto& entry : fs::recursive_directory_iterator(root / "libs/imageio")) {
+        if (!isSource(entry.path()) || isTest(entry.path()) || entry.path().filename() == "oiio_module.cpp") continue;
+        for (const auto& [angled, header] : includesOf(entry.path()))
+            EXPECT_NE(header.rfind("OpenImageIO/", 0), 0u) << fs::relative(entry.path(), root) << ": " << header;
     }
 }
 

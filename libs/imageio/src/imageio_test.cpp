@@ -1,64 +1,16 @@
 #include "emca/imageio/imageio.h"
 
 #include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <random>
+
+#include "testing/image_files.h"
 
 namespace emca::imageio {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// An empty folder that goes away with the test.
-class ImageFiles : public testing::Test {
-  protected:
-    ImageFiles() {
-        std::string pattern = (fs::temp_directory_path() / "emca-imageio-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~ImageFiles() override {
-        std::error_code ignored;
-        fs::permissions(folder_, fs::perms::owner_all, ignored);
-        fs::remove_all(folder_, ignored);
-    }
-    fs::path file(const std::string& name) const { return folder_ / name; }
-    std::size_t fileCount() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {}));
-    }
-    static std::string bytesOf(const fs::path& path) {
-        std::ifstream in(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
-    static void writeBytes(const fs::path& path, const std::string& bytes) {
-        std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    }
-    fs::path folder_;
-};
-
-Image randomBits(std::uint32_t width, std::uint32_t height, std::vector<std::string> channels = {"R", "G", "B"}) {
-    std::mt19937 random(1);
-    Image image(width, height, std::move(channels));
-    for (std::size_t i = 0; i < image.size(); ++i)
-        image.data()[i] = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-    const float special[] = {std::numeric_limits<float>::quiet_NaN(),  std::numeric_limits<float>::infinity(),
-                             -std::numeric_limits<float>::infinity(),  -0.f,
-                             std::numeric_limits<float>::denorm_min(), std::bit_cast<float>(0x7fc12345u)};
-    std::copy(std::begin(special), std::end(special), image.data());
-    return image;
-}
-
-bool sameBits(const Image& a, const Image& b) {
-    return a.width() == b.width() && a.height() == b.height() && a.channels() == b.channels() &&
-           std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
 
 TEST_F(ImageFiles, FloatsKeepEveryBitInExrAndPfm) {
     const Image image = randomBits(37, 23);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "sentences.h"
 #include "size_check.h"
 
 namespace emca::imageio {

@@ -2,16 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 
 #include "emca/core/result.h"
-#include "emca/imageio/imageio.h"
 
 namespace emca::imageio {
-
-inline Error unreadable(const std::filesystem::path& file, const std::string& why) {
-    return {ErrorCode::fileUnreadable, "The image " + file.string() + " cannot be read: " + why + "."};
-}
 
 /// Whether a header may be believed enough to get memory for it.
 /// Errors: fileUnreadable (nothing, or far more than `fileBytes` can hold), tooLarge.

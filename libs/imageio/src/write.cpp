@@ -1,32 +1,23 @@
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <fstream>
 #include <random>
-#include <set>
 
 #include "emca/imageio/imageio.h"
+#include "emca/imageio/stored_image.h"
+#include "exr.h"
+#include "format_module.h"
+#include "lower_case.h"
 #include "pfm.h"
+#include "sentences.h"
 #include "srgb.h"
 
 namespace emca::imageio {
 namespace {
 
 namespace fs = std::filesystem;
-
-Error unwritable(const fs::path& file, const std::string& why) {
-    return {ErrorCode::fileUnwritable, "The image " + file.string() + " cannot be written: " + why + "."};
-}
-
-std::string clause(std::string message) {
-    message = message.substr(0, message.find('\n'));
-    while (!message.empty() && (message.back() == '.' || message.back() == ' ')) message.pop_back();
-    return message.empty() ? "no reason was given" : message;
-}
 
 /// The image as three channels: colours as they are, one or two channels as grey.
 Image toRgb(const Image& image) {
@@ -36,65 +27,44 @@ Image toRgb(const Image& image) {
     return rgb;
 }
 
-OIIO::ImageSpec specOf(const Image& image, OIIO::TypeDesc type) {
-    OIIO::ImageSpec spec(static_cast<int>(image.width()), static_cast<int>(image.height()),
-                         static_cast<int>(image.channelCount()), type);
-    spec.channelnames = image.channels();
-    return spec;
+StoredImage withoutPixels(const Image& image) {
+    StoredImage stored;
+    stored.width = image.width();
+    stored.height = image.height();
+    stored.channels = image.channels();
+    return stored;
 }
 
-Result<void> writeWithOiio(const fs::path& file, const std::string& format, const OIIO::ImageSpec& spec,
-                           const void* pixels) {
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    const std::string createError = OIIO::geterror();
-    if (!output)
-        return Error{ErrorCode::notSupported,
-                     "This OpenImageIO was built without ." + format + ": " + clause(createError) + "."};
-    if (!output->open(file.string(), spec)) return unwritable(file, clause(output->geterror()));
-    const bool written = output->write_image(spec.format, pixels);
-    const std::string writeError = output->geterror();
-    const bool closed = output->close();
-    if (!written || !closed) return unwritable(file, clause(written ? output->geterror() : writeError));
-    return {};
-}
-
-Result<void> writeExr(const fs::path& file, const Image& image) {
-    const std::set<std::string> names(image.channels().begin(), image.channels().end());
-    if (names.size() != image.channelCount() || names.count("") > 0)
-        return Error{ErrorCode::invalidArgument,
-                     "The image for " + file.string() +
-                         " has channels without name or with the same one; EXR needs a name for each."};
-    OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::FLOAT);
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    return writeWithOiio(file, "openexr", spec, image.data());
+Result<void> writeWithModule(const fs::path& file, const char* format, const StoredImage& image) {
+    const auto& module = formatModule();
+    if (!module) return withoutModule(file, "written", module.error());
+    return (*module)->write(file, format, image);
 }
 
 Result<void> writeHdr(const fs::path& file, const Image& image) {
-    Image rgb = toRgb(image);
+    const Image rgb = toRgb(image);
+    StoredImage stored = withoutPixels(rgb);
+    stored.floats.assign(rgb.data(), rgb.data() + rgb.size());
     // A shared exponent knows neither sign nor words; its largest value is 255/256 * 2^127.
-    std::for_each(rgb.data(), rgb.data() + rgb.size(), [](float& v) { v = v > 0 ? std::min(v, 1.6e38f) : 0.f; });
-    return writeWithOiio(file, "hdr", specOf(rgb, OIIO::TypeDesc::FLOAT), rgb.data());
+    for (float& v : stored.floats) v = v > 0 ? std::min(v, 1.6e38f) : 0.f;
+    return writeWithModule(file, "hdr", stored);
 }
 
 Result<void> writePng(const fs::path& file, const Image& image) {
     const Image rgb = toRgb(image);
-    std::vector<std::uint8_t> bytes(rgb.size());
-    std::transform(rgb.data(), rgb.data() + rgb.size(), bytes.begin(), [](float v) {
+    StoredImage stored = withoutPixels(rgb);
+    stored.bytes.resize(rgb.size());
+    std::transform(rgb.data(), rgb.data() + rgb.size(), stored.bytes.begin(), [](float v) {
         const float clamped = v > 0 ? std::min(v, 1.f) : 0.f;  // NaN is 0
         return static_cast<std::uint8_t>(std::lround(encodeSrgb(clamped) * 255));
     });
-    OIIO::ImageSpec spec = specOf(rgb, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    return writeWithOiio(file, "png", spec, bytes.data());
+    return writeWithModule(file, "png", stored);
 }
 
 using Writer = Result<void> (*)(const fs::path&, const Image&);
 
 Writer writerFor(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lowerCase(file.extension().string());
     if (extension == ".exr") return writeExr;
     if (extension == ".pfm") return writePfm;
     if (extension == ".hdr") return writeHdr;
@@ -146,12 +116,10 @@ Result<void> writeAtomically(const fs::path& asked, const Image& image, Writer w
         if (fs::exists(old)) fs::permissions(temporary, old.permissions(), code);
         fs::rename(temporary, file, code);
         if (code) result = unwritable(asked, code.message());
-    } else if (result.error().code == ErrorCode::fileUnwritable) {
+    } else if (std::string message = result.error().message; message.find(temporary.string()) != std::string::npos) {
         // The person knows the file by the name that they gave.
-        std::string message = result.error().message;
-        if (const auto at = message.find(temporary.string()); at != std::string::npos)
-            message.replace(at, temporary.string().size(), asked.string());
-        result = Error{ErrorCode::fileUnwritable, message};
+        message.replace(message.find(temporary.string()), temporary.string().size(), asked.string());
+        result = Error{result.error().code, message};
     }
     if (!result) fs::remove(temporary, code);
     return result;
@@ -160,7 +128,11 @@ Result<void> writeAtomically(const fs::path& asked, const Image& image, Writer w
 }  // namespace
 
 Result<void> checkWritable(const fs::path& file) {
-    if (!writerFor(file)) return unknownExtension(file);
+    const Writer writer = writerFor(file);
+    if (!writer) return unknownExtension(file);
+    if (writer == writeHdr || writer == writePng) {
+        if (const auto& module = formatModule(); !module) return withoutModule(file, "written", module.error());
+    }
     return checkPlace(file, targetOf(file));
 }
 

@@ -1,7 +1,10 @@
 #include "emca/render/scene_loader.h"
 
+#include <set>
 #include <string>
+#include <variant>
 
+#include "emca/imageio/imageio.h"
 #include "emca/render/diagnostics.h"
 #include "scene_building.h"
 
@@ -49,6 +52,16 @@ void useDefaultCamera(const SceneDocument& document, SceneParts& parts) {
                   "The scene has no sensor: it is seen from the side, with all of it in view.");
 }
 
+/// Lets images be prepared for while the first meshes are read. Nodes may be referred to many times.
+void prepareImages(const SceneNode& node, std::set<const SceneNode*>& seen) {
+    if (!seen.insert(&node).second) return;
+    if (const auto file = node.properties.find("filename");
+        file != node.properties.end() && (node.type == "bitmap" || node.type == "envmap")) {
+        if (const auto* name = std::get_if<std::string>(&file->second.value)) imageio::prepareFor(*name);
+    }
+    for (const SceneNode::Child& child : node.children) prepareImages(*child.node, seen);
+}
+
 void buildParts(const SceneNode& root, SceneBuilding& building) {
     bool hasIntegrator = false;
     for (const SceneNode::Child& child : root.children) {
@@ -79,6 +92,8 @@ Result<std::shared_ptr<const Scene>> buildScene(const SceneDocument& document, s
     FactoryContext factories{parts.diagnostics, document.searchFolders};
     SceneBuilding building{parts, document.searchFolders, factories};
 
+    std::set<const SceneNode*> seen;
+    prepareImages(*document.root, seen);
     buildParts(*document.root, building);
     const SceneNode* sensor = nullptr;
     for (const SceneNode::Child& child : document.root->children) {
