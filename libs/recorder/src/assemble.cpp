@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "result_memory.h"
+#include "user_values.h"
 #include "value_column.h"
 
 namespace emca::detail {
@@ -25,21 +26,13 @@ struct Piece {
     Index cursor, path;
 };
 
-/// A user column of the result while it is filled. Text: indices into the result's strings. Spectra: no bytes here.
-struct UserValues {
-    std::string_view name;
-    Scope scope;
-    ValueType type;
-    ValueColumn values;
-    std::vector<float> spectra;
-    std::vector<std::uint32_t> spectrumOffsets;
-    std::vector<std::uint32_t> locations;
-};
-
 /// What to do with a record of one thread: the tag says it for core quantities, the route for user columns.
 struct Route {
-    enum Kind : std::uint8_t { bytes1 = LogTag::firstUser, bytes4, bytes8, bytes12, bytes16, bytes24, text, spectrum };
+    enum Kind : std::uint8_t {
+        bytes1 = LogTag::firstUser, bytes4, bytes8, bytes12, bytes16, bytes24, text, spectrum, located,
+    };
     std::uint8_t kind = 0;
+    ValueType type = ValueType::boolean;
     Scope scope = Scope::vertex;
     UserValues* column = nullptr;
 };
@@ -85,14 +78,16 @@ class Assembler {
         for (const CursorImpl* cursor : cursors_)
             for (Index p = 0; p < cursor->paths_.size(); ++p) vertices += cursor->paths_[p].vertices;
         if (vertices > 0x7fffffff)
-            return Error{ErrorCode::tooLarge, "This recording has more than 2^31 vertices; ask for fewer samples or pixels."};
+            return Error{ErrorCode::tooLarge,
+                         "This recording has more than 2^31 vertices; ask for fewer samples or pixels."};
         orderPaths();
         mergeStrings();
         countValues();
         prepare();
         for (Index p = 0; p < paths_.size(); ++p) fillPath(p);
         finishCore();
-        finishUserColumns();
+        for (UserValues& user : userValues_)
+            out_.columns.push_back(user.finish(user.scope() == Scope::path ? paths_.size() : vertexCount_));
         out_.strings = std::move(strings_);
         addUp(stats);
         return PathSet::make(std::move(out_));
@@ -110,7 +105,8 @@ class Assembler {
             for (Index p = 0; p < cursors_[c]->paths_.size(); ++p) pieces_.push_back({c, p});
         const auto id = [&](Piece p) { return std::tie(row(p).pixel, row(p).sample, row(p).part); };
         const auto less = [&](Piece a, Piece b) { return id(a) < id(b); };
-        if (!std::is_sorted(pieces_.begin(), pieces_.end(), less)) std::stable_sort(pieces_.begin(), pieces_.end(), less);
+        if (!std::is_sorted(pieces_.begin(), pieces_.end(), less))
+            std::stable_sort(pieces_.begin(), pieces_.end(), less);
         for (Index begin = 0, end = 0; begin < pieces_.size(); begin = end) {
             bool kept = false;
             for (end = begin; end < pieces_.size() && id(pieces_[end]) == id(pieces_[begin]); ++end)
@@ -140,7 +136,8 @@ class Assembler {
             std::vector<std::uint32_t>& counts = counts_.emplace_back(LogTag::firstUser + cursor->columns_.size());
             if (notKept_ > 0) continue;
             std::copy_n(cursor->coreCounts_, std::size_t(LogTag::firstUser), counts.begin());
-            for (std::uint32_t i = 0; i < cursor->columns_.size(); ++i) counts[LogTag::firstUser + i] = cursor->countOf(i);
+            for (std::uint32_t i = 0; i < cursor->columns_.size(); ++i)
+                counts[LogTag::firstUser + i] = cursor->countOf(i);
         }
         for (const IndexRange& path : paths_)
             for (Index i = path.first; i < path.last; ++i) {
@@ -212,11 +209,10 @@ class Assembler {
             std::size_t count = 0;
             for (const Source& s : sources) count += counts_[s.cursor][LogTag::firstUser + s.column];
             const std::size_t owners = scope == Scope::path ? paths_.size() : mostVertices_;
-            const std::size_t bytes = type == ValueType::spectrum ? 0 : byteSize(type);
-            userValues_.push_back({name, scope, type, ValueColumn(count, bytes, count == owners, memory_), {}, {}, {}});
-            if (type == ValueType::spectrum) userValues_.back().spectrumOffsets.push_back(0);
+            userValues_.emplace_back(name, scope, type, count, owners, memory_);
+            const std::uint8_t kind = shared_.options.locations ? std::uint8_t(Route::located) : routeKind(type);
             for (const Source& s : sources)
-                routes_[s.cursor][LogTag::firstUser + s.column] = {routeKind(type), scope, &userValues_.back()};
+                routes_[s.cursor][LogTag::firstUser + s.column] = {kind, type, scope, &userValues_.back()};
         }
     }
 
@@ -256,10 +252,12 @@ class Assembler {
         std::vector<Index> begins;
         for (const Piece& piece : pieces) {
             begins.push_back(static_cast<Index>(found.size()));
-            cursors_[piece.cursor]->readRecords(row(piece).begin, endOf(piece), [&](std::uint32_t tag, const std::byte* value) {
-                if (tag == LogTag::cameraVertex || tag == LogTag::lightVertex)
-                    found.push_back({tag == LogTag::lightVertex, load<std::int32_t>(value), static_cast<Index>(found.size())});
-            });
+            const auto note = [&](std::uint32_t tag, const std::byte* value) {
+                if (tag != LogTag::cameraVertex && tag != LogTag::lightVertex) return;
+                const auto recorded = static_cast<Index>(found.size());
+                found.push_back({tag == LogTag::lightVertex, load<std::int32_t>(value), recorded});
+            };
+            cursors_[piece.cursor]->readRecords(row(piece).begin, endOf(piece), note);
         }
         const auto key = [](const Found& f) { return std::tie(f.light, f.depth); };
         std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return key(a) < key(b); });
@@ -272,10 +270,10 @@ class Assembler {
     }
 
     void fillVertices(Piece piece, Index path, const Index* places) {
-        cursors_[piece.cursor]->log_.read(row(piece).begin, endOf(piece), [&, reached = Reached{places, {path, 0}, 0, 0}](
-                                                                               const std::byte* at, const std::byte* end) mutable {
-            fillFrom(at, end, piece.cursor, reached);
-        });
+        Reached reached{places, {path, 0}, 0, 0};
+        cursors_[piece.cursor]->log_.read(
+            row(piece).begin, endOf(piece),
+            [&](const std::byte* at, const std::byte* end) { fillFrom(at, end, piece.cursor, reached); });
     }
 
     /// Where the reading of a path is.
@@ -287,7 +285,7 @@ class Assembler {
     };
 
     void fillFrom(const std::byte* at, const std::byte* const end, Index cursor, Reached& reached);
-    void addUserValue(const Route& route, const Index* owner, Index cursor, const std::byte*& at);
+    void addUserValue(const Route& route, Index owner, Index cursor, const std::byte*& at);
 
     void finishCore() {
         const std::size_t n = paths_.size(), m = vertexCount_;
@@ -319,45 +317,6 @@ class Assembler {
         out_.contributions = contributions_.share<Contribution>();
         out_.splatOwners = splats_.owners();
         out_.splats = splats_.share<Splat>();
-    }
-
-    void finishUserColumns() {
-        for (UserValues& user : userValues_) {
-            const std::vector<Index> permutation = user.values.order();
-            if (!permutation.empty()) follow(permutation, user);
-            Column column;
-            column.name = user.name;
-            column.scope = user.scope;
-            column.type = user.type;
-            column.count = user.values.count();
-            if (!user.values.dense(user.scope == Scope::path ? paths_.size() : vertexCount_)) column.owners = user.values.owners();
-            column.bytes = user.values.share<std::byte>();
-            if (user.type == ValueType::spectrum) {
-                const auto bytes = std::as_bytes(std::span(user.spectra));
-                column.bytes = std::vector<std::byte>(bytes.begin(), bytes.end());
-                column.spectrumOffsets = std::move(user.spectrumOffsets);
-            }
-            column.locations = std::move(user.locations);
-            out_.columns.push_back(std::move(column));
-        }
-    }
-
-    /// Brings what stands beside the values in their new order.
-    static void follow(const std::vector<Index>& permutation, UserValues& user) {
-        if (!user.locations.empty()) {
-            std::vector<std::uint32_t> locations;
-            for (const Index i : permutation) locations.push_back(user.locations[i]);
-            user.locations = std::move(locations);
-        }
-        if (user.type != ValueType::spectrum) return;
-        std::vector<float> spectra;
-        std::vector<std::uint32_t> offsets{0};
-        for (const Index i : permutation) {
-            spectra.insert(spectra.end(), user.spectra.begin() + user.spectrumOffsets[i], user.spectra.begin() + user.spectrumOffsets[i + 1]);
-            offsets.push_back(static_cast<std::uint32_t>(spectra.size()));
-        }
-        user.spectra = std::move(spectra);
-        user.spectrumOffsets = std::move(offsets);
     }
 
     std::uint32_t locationText(const std::source_location& where) {
@@ -407,37 +366,31 @@ class Assembler {
     PathColumns out_;
 };
 
-void Assembler::addUserValue(const Route& route, const Index* owner, Index cursor, const std::byte*& at) {
+/// Types of which there is seldom much, and source lines.
+void Assembler::addUserValue(const Route& route, Index owner, Index cursor, const std::byte*& at) {
     UserValues& column = *route.column;
-    const Index to = owner[static_cast<std::size_t>(route.scope)];
-    switch (route.kind) {
-        case Route::bytes1: column.values.add<1>(to, at); at += 1; break;
-        case Route::bytes4: column.values.add<4>(to, at); at += 4; break;
-        case Route::bytes8: column.values.add<8>(to, at); at += 8; break;
-        case Route::bytes12: column.values.add<12>(to, at); at += 12; break;
-        case Route::bytes16: column.values.add<16>(to, at); at += 16; break;
-        case Route::bytes24: column.values.add<24>(to, at); at += 24; break;
+    switch (routeKind(route.type)) {
+        case Route::bytes1: column.add<1>(owner, at); at += 1; break;
+        case Route::bytes4: column.add<4>(owner, at); at += 4; break;
+        case Route::bytes8: column.add<8>(owner, at); at += 8; break;
+        case Route::bytes12: column.add<12>(owner, at); at += 12; break;
+        case Route::bytes16: column.add<16>(owner, at); at += 16; break;
+        case Route::bytes24: column.add<24>(owner, at); at += 24; break;
         case Route::text: {
             const std::uint32_t text = movedStrings_[cursor][load<std::uint32_t>(at)];
-            column.values.add<4>(to, reinterpret_cast<const std::byte*>(&text));
+            column.add<4>(owner, reinterpret_cast<const std::byte*>(&text));
             at += 4;
             break;
         }
-        case Route::spectrum: {
+        default: {
             const auto entries = load<std::uint32_t>(at);
             at += sizeof entries;
-            const std::size_t before = column.spectra.size();
-            column.spectra.resize(before + entries);
-            if (entries > 0) std::memcpy(column.spectra.data() + before, at, entries * sizeof(float));
+            column.addSpectrum(owner, at, entries);
             at += entries * sizeof(float);
-            column.spectrumOffsets.push_back(static_cast<std::uint32_t>(column.spectra.size()));
-            column.values.addOwner(to);
-            break;
         }
-        default: break;
     }
-    if (shared_.options.locations) {
-        column.locations.push_back(locationText(load<std::source_location>(at)));
+    if (route.kind == Route::located) {
+        column.addLocation(locationText(load<std::source_location>(at)));
         at += sizeof(std::source_location);
     }
 }
@@ -453,9 +406,15 @@ void Assembler::fillFrom(const std::byte* at, const std::byte* const end, Index 
         if (begun > 0) vertex.flags[v] |= flags;
     };
     while (at < end) {
-        std::uint32_t tag = load<std::uint16_t>(at);
-        at += sizeof(std::uint16_t);
-        switch (routes[tag].kind) {
+        const auto tag = load<std::uint16_t>(at);
+        at += sizeof tag;
+        const Route* route = routes + tag;
+        if (tag == LogTag::wide) [[unlikely]] {
+            route = routes + LogTag::firstUser + load<std::uint32_t>(at);
+            at += sizeof(std::uint32_t);
+        }
+        const auto to = [&] { return owner[static_cast<std::size_t>(route->scope)]; };
+        switch (route->kind) {
             case LogTag::cameraVertex:
             case LogTag::lightVertex:
                 leave();
@@ -512,11 +471,14 @@ void Assembler::fillFrom(const std::byte* at, const std::byte* const end, Index 
                 break;
             }
             case LogTag::splat: splats_.add<sizeof(Splat)>(owner[0], at); at += sizeof(Splat); break;
-            case LogTag::wide:
-                tag = load<std::uint32_t>(at) + LogTag::firstUser;
-                at += sizeof tag;
-                [[fallthrough]];
-            default: addUserValue(routes[tag], owner, cursor, at); break;
+            case Route::bytes4: route->column->add<4>(to(), at); at += 4; break;
+            case Route::bytes8: route->column->add<8>(to(), at); at += 8; break;
+            case Route::bytes12: route->column->add<12>(to(), at); at += 12; break;
+            case Route::text:
+                route->column->add<4>(to(), reinterpret_cast<const std::byte*>(&strings[load<std::uint32_t>(at)]));
+                at += 4;
+                break;
+            default: addUserValue(*route, to(), cursor, at); break;
         }
     }
     leave();

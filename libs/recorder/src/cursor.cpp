@@ -282,9 +282,11 @@ void CursorImpl::append(const KeyParts& key, Scope scope, const T& value) {
     }
     const auto write = [&](const auto&... parts) {
         const bool wide = isWide(column), located = shared_.options.locations;
-        const std::uint16_t tag = wide ? std::uint16_t(LogTag::wide) : static_cast<std::uint16_t>(LogTag::firstUser + column);
+        const std::uint16_t tag =
+            wide ? std::uint16_t(LogTag::wide) : static_cast<std::uint16_t>(LogTag::firstUser + column);
         const std::source_location& where = key.where;
-        if (!reserve((sizeof tag + ... + parts.size()) + (wide ? sizeof column : 0) + (located ? sizeof where : 0))) return;
+        if (!reserve((sizeof tag + ... + parts.size()) + (wide ? sizeof column : 0) + (located ? sizeof where : 0)))
+            return;
         const auto put = [&](std::span<const std::byte> bytes) {
             if (!bytes.empty()) std::memcpy(next_, bytes.data(), bytes.size());
             next_ += bytes.size();
@@ -292,7 +294,8 @@ void CursorImpl::append(const KeyParts& key, Scope scope, const T& value) {
         put(bytesOf(tag));
         if (wide) put(bytesOf(column));
         (put(parts), ...);
-        if (located) [[unlikely]] put(bytesOf(where));
+        if (located) [[unlikely]]
+            put(bytesOf(where));
         ++*count;
     };
     if constexpr (kType == ValueType::text) {

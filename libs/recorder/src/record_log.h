@@ -38,7 +38,8 @@ class RecordLog {
     void read(LogPosition from, LogPosition to, Visit&& visit) const {
         for (std::uint32_t c = from.chunk; c <= to.chunk && c < chunks_.size(); ++c) {
             const std::byte* memory = chunks_[c].memory.get();
-            const std::size_t first = c == from.chunk ? from.offset : 0, last = c == to.chunk ? to.offset : chunks_[c].used;
+            const std::size_t first = c == from.chunk ? from.offset : 0,
+                              last = c == to.chunk ? to.offset : chunks_[c].used;
             if (first < last) visit(memory + first, memory + last);
         }
     }

@@ -160,6 +160,75 @@ TEST(Recording, ForgottenPathsGiveTheirBytesBack) {
     EXPECT_EQ(paths->vertexCount(), 8u);
 }
 
+// More than two bytes can count.
+TEST(Recording, ManyKeys) {
+    constexpr int kKeys = 70000;
+    Recording recording;
+    {
+        const RecordScope scope(recording, {0, 0});
+        recorder().setPathIndex(0);
+        recorder().setDepthIndex(1);
+        for (int round = 0; round < 2; ++round)
+            for (int k = 0; k < kKeys; ++k) recorder().addIntersectionData(Key(std::to_string(k)), k + round);
+    }
+    auto paths = recording.finish();
+    ASSERT_TRUE(paths.ok()) << paths.error().message;
+    ASSERT_EQ(paths->userColumns().size(), std::size_t(kKeys));
+    for (const Column& column : paths->userColumns()) {
+        ASSERT_EQ(column.count, 2u);
+        ASSERT_EQ(paths->value(column, 0), Value(std::int64_t(std::stoi(column.name))));
+        ASSERT_EQ(paths->value(column, 1), Value(std::int64_t(std::stoi(column.name)) + 1));
+    }
+}
+
+// The memory that a text lies in says nothing about the text.
+TEST(Recording, ABufferThatChangesIsAnotherText) {
+    Recording recording;
+    std::vector<std::string> expected;
+    {
+        const RecordScope scope(recording, {0, 0});
+        std::string buffer;
+        buffer.reserve(100);
+        recorder().setPathIndex(0);
+        recorder().setDepthIndex(1);
+        for (const std::size_t size : {0, 1, 2, 3, 4, 7, 8, 9, 15, 16, 17, 40})
+            for (std::size_t changed = 0; changed < size; ++changed) {
+                buffer.assign(size, 'a');
+                buffer[changed] = 'b';
+                recorder().addIntersectionData("text", buffer);
+                expected.push_back(buffer);
+                buffer[changed] = 'c';
+                recorder().addIntersectionData("text", buffer);
+                expected.push_back(buffer);
+            }
+    }
+    auto paths = recording.finish();
+    ASSERT_TRUE(paths.ok());
+    const Column& text = *paths->find(Scope::vertex, "text").at(0);
+    ASSERT_EQ(text.count, expected.size());
+    for (Index i = 0; i < text.count; ++i) EXPECT_EQ(paths->value(text, i), Value(expected[i]));
+}
+
+// A column that was not asked for changes nothing else.
+TEST(Recording, AnEnvironmentHitIsAVertexOfItsOwnWithoutPositions) {
+    Recording recording({.columns = {"emission"}});
+    {
+        const RecordScope scope(recording, {0, 0});
+        recorder().setPathIndex(0);
+        recorder().setDepthIndex(1);
+        recorder().setIntersectionPos(Vec3f{1, 0, 0});
+        recorder().setIntersectionPosEnvmap(Vec3f{9, 0, 0});
+        recorder().setIntersectionEmission(Color(2.f));
+    }
+    auto paths = recording.finish();
+    ASSERT_TRUE(paths.ok());
+    ASSERT_EQ(paths->vertexCount(), 2u);
+    EXPECT_FALSE(paths->isEnvironment(0));
+    EXPECT_TRUE(paths->isEnvironment(1));
+    EXPECT_EQ(paths->emission(1), Color(2.f));
+    EXPECT_FALSE(paths->position(0));
+}
+
 TEST(Recording, OnlyTheColumnsAskedFor) {
     Recording recording({.columns = {"odd", "position"}});
     {

@@ -16,7 +16,9 @@ struct ResultArray {
     std::shared_ptr<const void> owner;
     T* data = nullptr;
     /// The first `size` entries, to be read only from now on.
-    SharedArray<T> share(std::size_t size) const { return size == 0 ? SharedArray<T>() : SharedArray<T>(owner, data, size); }
+    SharedArray<T> share(std::size_t size) const {
+        return size == 0 ? SharedArray<T>() : SharedArray<T>(owner, data, size);
+    }
 };
 
 /// Memory of a PathSet's arrays: several arrays share a slab, so that the slabs of the last result can serve the next
@@ -43,8 +45,8 @@ class ResultMemory {
     static constexpr std::size_t kSmallest = 4096, kLargest = 64 * 4096, kAlignment = 64, kGap = 3 * kAlignment;
 
     std::byte* takeBytes(std::size_t bytes) {
-        // The gap: arrays of equal entries are filled side by side, and beginnings a power of two apart would compete for
-        // the same few lines of the cache.
+        // The gap: arrays of equal entries are filled side by side, and beginnings a power of two apart would compete
+        // for the same few lines of the cache.
         bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment + kGap;
         if (bytes > left_) {
             left_ = std::max(bytes, blockBytes_);

@@ -22,7 +22,8 @@ static_assert(kPieces == 32, "a block's pieces are the bits of one number");
 /// `bytes` at a multiple of a block, not yet backed by memory; nullptr if there is no room.
 std::byte* reserve(std::size_t bytes) {
 #ifdef __linux__
-    void* memory = mmap(nullptr, bytes + kBlockBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void* memory =
+        mmap(nullptr, bytes + kBlockBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED) return nullptr;
     auto* const begin = static_cast<std::byte*>(memory);
     const std::size_t before = (kBlockBytes - reinterpret_cast<std::uintptr_t>(begin) % kBlockBytes) % kBlockBytes;
@@ -75,7 +76,8 @@ class BlockPool {
     void free(std::byte* slab, std::size_t pieces) {
         const std::lock_guard lock(mutex_);
         const auto offset = reinterpret_cast<std::uintptr_t>(slab) % kBlockBytes;
-        const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return b.memory == slab - offset; });
+        const auto block =
+            std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return b.memory == slab - offset; });
         const std::uint32_t mask = pieces == kPieces ? ~0u : (1u << pieces) - 1;
         block->used &= ~(mask << offset / kPieceBytes);
         if (block->used == 0) keepAtMost(kKeptBlocks);

@@ -15,7 +15,8 @@ std::vector<Index> ValueColumn::order() {
     std::vector<Index> permutation(count_);
     std::iota(permutation.begin(), permutation.end(), 0u);
     const Index* owners = owners_.data;
-    std::stable_sort(permutation.begin(), permutation.end(), [owners](Index a, Index b) { return owners[a] < owners[b]; });
+    std::stable_sort(permutation.begin(), permutation.end(),
+                     [owners](Index a, Index b) { return owners[a] < owners[b]; });
     const ResultArray<Index> orderedOwners = memory_->take<Index>(count_);
     const ResultArray<std::byte> orderedValues = memory_->take<std::byte>(count_ * bytes_);
     for (Index i = 0; i < count_; ++i) {

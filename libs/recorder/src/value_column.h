@@ -13,7 +13,8 @@ namespace emca::detail {
 /// Values with owners of the result while they arrive, in an order that is nearly always the result's.
 class ValueColumn {
   public:
-    /// \param capacity  values that may come \param bytes  of one value \param mayBeDense  owners may be left out at the end
+    /// \param capacity  values that may come \param bytes  of one value \param mayBeDense  owners may be left out at
+    /// the end
     ValueColumn(std::size_t capacity, std::size_t bytes, bool mayBeDense, ResultMemory& memory)
         : memory_(&memory), capacity_(capacity), bytes_(bytes), values_(memory.take<std::byte>(capacity * bytes)) {
         if (!mayBeDense) owners_ = memory.take<Index>(capacity);
@@ -28,7 +29,8 @@ class ValueColumn {
     void addOwner(Index owner) {
         const Index i = count_++;
         if (owners_.data == nullptr) {
-            if (owner == i) [[likely]] return;
+            if (owner == i) [[likely]]
+                return;
             writeOwners(i);
         }
         owners_.data[i] = owner;
