@@ -42,6 +42,15 @@ Result<void> checkStrings(const std::string& name, std::span<const std::uint32_t
     return {};
 }
 
+/// Numbers that stand for one of `count` names, of every vertex, also where a flag says that there is none.
+Result<void> checkNames(const char* name, const SharedArray<std::uint8_t>& numbers, std::uint8_t count) {
+    for (const std::uint8_t number : numbers)
+        if (number >= count)
+            return bad(std::string("column \"") + name + "\" holds " + std::to_string(number) +
+                       ", but the last known one is " + std::to_string(count - 1));
+    return {};
+}
+
 Result<void> checkPaths(const PathColumns& c) {
     const std::size_t n = c.pixels.size(), m = c.depths.size();
     std::uint8_t used = 0;
@@ -81,6 +90,8 @@ Result<void> checkVertices(const PathColumns& c) {
     for (std::size_t p = 0; p + 1 < c.firstVertex.size(); ++p)
         for (std::size_t v = c.firstVertex[p] + std::size_t(1); v < c.firstVertex[p + 1]; ++v)
             if (key(v - 1) >= key(v)) return bad("vertices of a path are not ordered by depth");
+    if (auto r = checkNames("event", c.events, kEventCount); !r) return r;
+    if (auto r = checkNames("lobe", c.lobes, kLobeCount); !r) return r;
     if (event)
         return checkStrings("label", c.labels.span(), c.strings.size(), true);
     return {};
@@ -126,8 +137,10 @@ Result<void> checkSparse(const PathColumns& c) {
     if (auto r = checkOwners("nee", c.nextEventOwners, c.nextEvents.size(), m); !r) return r;
     if (auto r = checkOwners("contribution", c.contributionOwners, c.contributions.size(), m); !r) return r;
     if (auto r = checkOwners("splat", c.splatOwners, c.splats.size(), n); !r) return r;
-    for (const Contribution& contribution : c.contributions)
+    for (const Contribution& contribution : c.contributions) {
         if (contribution.technique >= c.strings.size()) return bad("a contribution names a technique that is not there");
+        if (static_cast<std::uint8_t>(contribution.end) >= kLightEndCount) return bad("a contribution met its light in an unknown way");
+    }
     return {};
 }
 

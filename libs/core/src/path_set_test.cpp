@@ -86,6 +86,11 @@ TEST(PathSet, DamagedColumnsAreRefusedByName) {
         {"position", [](auto& c) { c.positions = std::vector<Vec3f>{{}, {}}; }},
         {"depth", [](auto& c) { c.depths = std::vector<std::int32_t>{2, 2, 1}; }},
         {"label", [](auto& c) { c.labels = std::vector<std::uint32_t>{kNoString, 2, kNoString}; }},
+        {"event", [](auto& c) { c.events = std::vector<std::uint8_t>{0, kEventCount, 0}; }},
+        {"event", [](auto& c) { c.events = std::vector<std::uint8_t>{255, 1, 0}; }},
+        {"lobe", [](auto& c) { c.lobes = std::vector<std::uint8_t>{0, kLobeCount, 0}; }},
+        {"unknown way",
+         [](auto& c) { c.contributions = std::vector<Contribution>{{Color(), 1, 1, LightEnd(kLightEndCount), {}}}; }},
         {"nee", [](auto& c) { c.nextEventOwners = std::vector<Index>{2, 1}; }},
         {"nee", [](auto& c) { c.nextEventOwners = std::vector<Index>{1, 3}; }},
         {"nee", [](auto& c) { c.nextEventOwners = std::vector<Index>{1}; }},
@@ -107,6 +112,16 @@ TEST(PathSet, DamagedColumnsAreRefusedByName) {
         ASSERT_FALSE(made.ok()) << word;
         EXPECT_NE(made.error().message.find(word), std::string::npos) << made.error().message;
     }
+}
+
+TEST(PathSet, EveryEventLobeAndLightEndIsKnown) {
+    for (std::uint8_t e = 0; e < kEventCount; ++e) EXPECT_STRNE(name(Event(e)), name(Event(kEventCount)));
+    for (std::uint8_t l = 0; l < kLobeCount; ++l) EXPECT_STRNE(name(Lobe(l)), name(Lobe(kLobeCount)));
+    PathColumns columns = sampleColumns();
+    columns.events = std::vector<std::uint8_t>{0, kEventCount - 1, 0};
+    columns.lobes = std::vector<std::uint8_t>{0, kLobeCount - 1, 0};
+    columns.contributions = std::vector<Contribution>{{Color(), 1, 1, LightEnd(kLightEndCount - 1), {}}};
+    EXPECT_TRUE(PathSet::make(std::move(columns)).ok());
 }
 
 TEST(PathSet, MergingKeepsEverythingInOrder) {

@@ -30,6 +30,8 @@ enum class LightEnd : std::uint8_t {
     connected = 2,  ///< from this vertex straight to a sampled point on a light
 };
 
+inline constexpr std::uint8_t kEventCount = 8, kLobeCount = 5, kLightEndCount = 3;
+
 /// "reflect", "diffuse", …; the spelling of JSON and queries.
 const char* name(Event event);
 const char* name(Lobe lobe);
