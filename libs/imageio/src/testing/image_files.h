@@ -36,6 +36,7 @@ class ImageFiles : public testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
     static void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
+        std::filesystem::remove(path);  // overwriting waits for the disk
         std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     }
     std::filesystem::path folder_;
