@@ -5,6 +5,9 @@
 // runs from an empty recorder, so first storage and all divisions are counted; finish() is measured alone.
 #include <benchmark/benchmark.h>
 
+#include <time.h>
+
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <latch>
@@ -72,8 +75,15 @@ struct Workload {
 
 struct Times {
     double recording = 0, finishing = 0;
+    double processor = 0;  ///< of all recording threads together
     SurfaceField field;
 };
+
+double processorSeconds(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
 
 /// Records in portions, with the clock stopped while the next portion is made.
 Times run(const Workload& work, int threads) {
@@ -86,6 +96,7 @@ Times run(const Workload& work, int threads) {
     constexpr std::uint64_t kPortion = 1000000;
     std::vector<std::vector<Sample>> samples(threads, std::vector<Sample>(kPortion / threads));
     Times times;
+    std::atomic<double> processor{0};
     for (std::uint64_t done = 0; done < work.samples; done += kPortion) {
         for (int i = 0; i < threads; ++i) fill(samples[i], meshes[0], done * 31 + std::uint64_t(i) + 1, work.onePoint);
         std::latch start(threads + 1);
@@ -94,35 +105,40 @@ Times run(const Workload& work, int threads) {
             workers.emplace_back([&, i] {
                 SurfaceCursor& surface = recorder.cursor();
                 start.arrive_and_wait();
+                const double before = processorSeconds(CLOCK_THREAD_CPUTIME_ID);
                 for (const Sample& s : samples[i]) {
                     const SurfacePoint at = surface.locate(0, s.face, s.position);
                     for (const SurfaceLayer& layer : layers) layer.add(at, s.value);
                 }
+                processor += processorSeconds(CLOCK_THREAD_CPUTIME_ID) - before;
             });
         start.arrive_and_wait();
         const auto begin = Clock::now();
         for (std::thread& worker : workers) worker.join();
         times.recording += std::chrono::duration<double>(Clock::now() - begin).count();
     }
-    const auto begin = Clock::now();
+    times.processor = processor;
+    const double begin = processorSeconds(CLOCK_PROCESS_CPUTIME_ID);
     times.field = recorder.finish();
-    times.finishing = std::chrono::duration<double>(Clock::now() - begin).count();
+    times.finishing = processorSeconds(CLOCK_PROCESS_CPUTIME_ID) - begin;
     return times;
 }
 
 void record(benchmark::State& state, Workload work) {
     const int threads = int(state.range(0));
     Times times;
-    double recording = 0, finishing = 0;
+    double recording = 0, finishing = 0, processor = 0;
     for (auto _ : state) {
         times = run(work, threads);
         recording += times.recording;
         finishing += times.finishing;
+        processor += times.processor;
         state.SetIterationTime(times.recording);
     }
     if (times.field.counts.points != work.samples) state.SkipWithError("samples were lost");
     const double samples = double(work.samples) * double(state.iterations());
     state.counters["ns/sample"] = recording / samples * 1e9;
+    state.counters["cpu/thread"] = processor / samples / threads * 1e9;  // what ns/sample is on a machine of our own
     state.counters["finish_ms"] = finishing / double(state.iterations()) * 1e3;
     state.counters["faces"] = double(times.field.faceCount());
     state.counters["MiB"] = double(times.field.counts.bytesUsed) / double(1 << 20);

@@ -3,6 +3,7 @@
 // between them, since the shard belongs to this thread.
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -12,9 +13,10 @@
 namespace emca::detail {
 
 struct SurfaceStore::Lane {
+    SurfaceRef* slot;  ///< first the one of the face, then of what is below it
     SurfaceNode* node;
     const std::uint32_t* record;
-    std::uint32_t u, v, level;
+    std::uint32_t u, v;
 };
 
 namespace {
@@ -23,13 +25,15 @@ constexpr std::uint32_t kLanes = 16;  // more than the machine's outstanding mis
 
 inline void prefetchForWriting(const void* address) { __builtin_prefetch(address, 1, 3); }
 
+inline const SurfacePlace& placeOf(const std::uint32_t* record) {
+    return *reinterpret_cast<const SurfacePlace*>(record);
+}
+
 inline void bump(std::atomic<std::uint64_t>& counter, std::uint64_t by) {
     counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
 }  // namespace
-
-SurfaceNode* const SurfaceStore::kFinal = reinterpret_cast<SurfaceNode*>(std::uintptr_t(1));
 
 void SurfaceStore::submit(SurfaceBlock* block, std::uint32_t index) {
     SurfaceShard& shard = shards_[index];
@@ -74,127 +78,210 @@ bool SurfaceStore::help() {
 void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
     const std::uint32_t* record = block.data();
     const std::uint32_t count = block.words / recordWords_;
+    const auto ahead = [&](std::uint32_t group, std::uint32_t done) {  // how many records that group has
+        return std::min<std::uint32_t>(kLanes, count - std::min(count, done + group * kLanes));
+    };
+    const std::size_t groupWords = std::size_t(kLanes) * recordWords_;
     Lane lanes[kLanes];
     std::uint64_t points = 0;
-    for (std::uint32_t done = 0; done < count; done += kLanes) {
-        const std::uint32_t lanesUsed = std::min(kLanes, count - done);
-        points += enter(shard, record, lanesUsed, lanes);
-        record += std::size_t(lanesUsed) * recordWords_;
-        if (storesFaces_)
-            for (std::uint32_t i = 0, ahead = std::min(kLanes, count - done - lanesUsed); i < ahead; ++i) {
-                const std::uint32_t face = record[std::size_t(i) * recordWords_];
-                if (const Page* page = pages_[face >> pageBits_])
-                    __builtin_prefetch(&page->roots[face & ((1u << pageBits_) - 1)]);
-            }
-        // Where a lane ends cannot be predicted, so lanes that are done stand still while the others go on.
-        for (bool any = true; any;) {
-            any = false;
-            for (std::uint32_t i = 0; i < lanesUsed; ++i) {
-                Lane& lane = lanes[i];
-                SurfaceNode* children = lane.node->children;
-                const bool go = children > kFinal;
-                std::uint32_t u = lane.u, v = lane.v;
-                const std::uint32_t which = descend(u, v);
-                // As a number: where there are no children, this is no address.
-                const std::uintptr_t below = reinterpret_cast<std::uintptr_t>(children) + which * nodeBytes_;
-                lane.node = go ? reinterpret_cast<SurfaceNode*>(below) : lane.node;
-                lane.u = go ? u : lane.u;
-                lane.v = go ? v : lane.v;
-                lane.level += go;
-                any |= go;
-                prefetchForWriting(lane.node);
-            }
-        }
-        for (std::uint32_t i = 0; i < lanesUsed; ++i)
-            for (std::size_t line = 64; line < nodeBytes_; line += 64)
-                prefetchForWriting(reinterpret_cast<std::byte*>(lanes[i].node) + line);
-        for (std::uint32_t i = 0; i < lanesUsed; ++i) addRecord(shard, lanes[i]);
+    prefetchFaces(record, ahead(0, 0));
+    prefetchFaces(record + groupWords, ahead(1, 0));
+    prefetchVertices(record, ahead(0, 0));
+    for (std::uint32_t done = 0; done < count; done += kLanes, record += groupWords) {
+        prefetchFaces(record + 2 * groupWords, ahead(2, done));
+        prefetchVertices(record + groupWords, ahead(1, done));
+        const std::uint32_t used = ahead(0, done);
+        points += enter(shard, record, used, lanes);
+        descendAll(lanes, used);
+        for (std::uint32_t i = 0; i < used; ++i) addRecord(shard, lanes[i]);
     }
     bump(shard.points, points);
 }
 
-/// From records to the nodes of their faces. Returns how many count as points.
+/// First of two steps before records are applied: what their faces are found by.
+void SurfaceStore::prefetchFaces(const std::uint32_t* record, std::uint32_t count) const {
+    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
+        const SurfacePlace& place = placeOf(record);
+        if (const SurfaceRef* slot = slotOf(place.face)) __builtin_prefetch(slot);
+        if (record[kPlaceWords] & kIsPosition)
+            __builtin_prefetch(&meshes_[place.mesh].triangles[place.face - faceStarts_[place.mesh]]);
+    }
+}
+
+/// Second step, when those are there.
+void SurfaceStore::prefetchVertices(const std::uint32_t* record, std::uint32_t count) const {
+    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
+        if (!(record[kPlaceWords] & kIsPosition)) continue;
+        const SurfacePlace& place = placeOf(record);
+        const SurfaceMeshView& mesh = meshes_[place.mesh];
+        const Triangle& t = mesh.triangles[place.face - faceStarts_[place.mesh]];
+        // Only a hint: an index beyond the vertices does no harm here.
+        for (const std::uint32_t vertex : t)
+            __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(mesh.positions.data()) +
+                                                             vertex * sizeof(Vec3f)));
+    }
+}
+
+/// From records to the references of their faces. Returns how many count as points.
 std::uint32_t SurfaceStore::enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes) {
     std::uint32_t points = 0, coarse = 0;
     for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
-        const std::uint32_t face = record[0], counted = !(record[2] & kNotCounted);
-        SurfaceNode* node = nullptr;
-        if (storesFaces_)
-            if (const Page* page = pages_[face >> pageBits_]) node = page->roots[face & ((1u << pageBits_) - 1)];
-        bool isBin = false;
-        if (node == nullptr) [[unlikely]] {
-            node = rootOrBin(shard, face);
-            isBin = bins_[run(face)] == node;
+        const std::uint32_t face = placeOf(record).face, counted = !(record[kPlaceWords] & kNotCounted);
+        Lane& lane = lanes[i];
+        lane.record = record;
+        lane.slot = slotOf(face);
+        if (lane.slot == nullptr || !*lane.slot) [[unlikely]] {
+            lane.slot = newRoot(shard, face);
+            if (lane.slot == nullptr) {
+                lane.slot = binOf(face);
+                coarse += counted;
+            }
         }
-        prefetchForWriting(node);
-        lanes[i] = {node, record, record[1], record[2] & ~kNotCounted, 0};
+        coordinates(record, lane.u, lane.v);
         points += counted;
-        coarse += counted & isBin;
     }
     if (coarse > 0) bump(shard.coarse, coarse);
     return points;
 }
 
+void SurfaceStore::coordinates(const std::uint32_t* record, std::uint32_t& u, std::uint32_t& v) const {
+    const SurfacePlace& place = placeOf(record);
+    u = place.where[0];
+    v = place.where[1];
+    if (record[kPlaceWords] & kIsPosition) toBarycentrics(place, u, v);
+}
+
+/// From the references of faces to the nodes of the smallest triangles that contain the points, level by level: what is
+/// prefetched in one round is there in the next.
+void SurfaceStore::descendAll(Lane* lanes, std::uint32_t count) const {
+    std::uint32_t active[kLanes], left = count;
+    for (std::uint32_t i = 0; i < count; ++i) active[i] = i;
+    while (left > 0) {
+        std::uint32_t still = 0;
+        for (std::uint32_t k = 0; k < left; ++k) {
+            Lane& lane = lanes[active[k]];
+            const SurfaceRef ref = *lane.slot;
+            const std::uint32_t which = descend(lane.u, lane.v);
+            if (ref.kind() == SurfaceRef::inner) {
+                lane.slot = ref.children() + which;
+                __builtin_prefetch(lane.slot);
+                active[still++] = active[k];
+            } else {
+                lane.node = ref.end(which, nodeBytes_);
+                for (std::size_t line = 0; line < nodeBytes_; line += 64)
+                    prefetchForWriting(reinterpret_cast<std::byte*>(lane.node) + line);
+            }
+        }
+        left = still;
+    }
+}
+
 void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
     SurfaceNode* node = lane.node;
     const std::uint32_t* record = lane.record;
-    node->points += !(record[2] & kNotCounted);
-    const SurfaceLayerLayout* layers = layouts_.data();
+    node->points += !(record[kPlaceWords] & kNotCounted);
+    // Behind the flags, bit 0 of the first mask would be two layers before the first.
+    std::ptrdiff_t first = -std::ptrdiff_t(kFirstMaskFlags);
+    std::uint32_t drop = kNotCounted | kIsPosition;
     for (const std::uint16_t maskWord : maskWords_) {
-        for (std::uint32_t mask = record[maskWord]; mask != 0; mask &= mask - 1) {
-            const SurfaceLayerLayout& layer = layers[std::countr_zero(mask)];
+        for (std::uint32_t mask = record[maskWord] & ~drop; mask != 0; mask &= mask - 1) {
+            const SurfaceLayerLayout& layer = layouts_[static_cast<std::size_t>(first + std::countr_zero(mask))];
             auto* cellOf = cell<SurfaceCell>(node, layer);
             ++cellOf->count;
             const std::uint32_t* value = record + layer.valueWord;
-            cellOf->sums[0] += double(std::bit_cast<float>(value[0]));
+            double* sums = cellOf->sums;
+            sums[0] += double(std::bit_cast<float>(value[0]));
             if (layer.channels == 3) {
-                double* sums = cellOf->sums;
                 sums[1] += double(std::bit_cast<float>(value[1]));
                 sums[2] += double(std::bit_cast<float>(value[2]));
             }
         }
-        layers += 32;
+        first += 32;
+        drop = 0;
     }
-    if (node->points >= options_.samplesPerDivision && node->children == nullptr) [[unlikely]]
-        divide(shard, node, record[0], lane.level);
+    if (node->points >= options_.samplesPerDivision && !(node->parent & kFinal)) [[unlikely]]
+        divide(shard, node, record);
 }
 
-void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, std::uint32_t face, std::uint32_t level) {
-    node->children = kFinal;
-    if (level >= options_.maximumLevel) return;
-    const std::uint32_t mesh = meshOf(face);
-    const double childArea = std::ldexp(area(mesh, static_cast<std::uint32_t>(face - faceStarts_[mesh])),
-                                        -2 * static_cast<int>(level + 1));
-    if (!(childArea > 0) || childArea < minimumArea_) return;
-    if (std::byte* children = allocate(shard, 4 * nodeBytes_))
-        node->children = reinterpret_cast<SurfaceNode*>(children);
-    else
-        bump(shard.refused, 1);
-}
-
-SurfaceNode* SurfaceStore::rootOrBin(SurfaceShard& shard, std::uint32_t face) {
-    if (storesFaces_) {
-        Page*& page = pages_[face >> pageBits_];
-        if (page == nullptr) page = reinterpret_cast<Page*>(allocate(shard, pageBytes_));
-        if (page != nullptr) {
-            SurfaceNode*& slot = page->roots[face & ((1u << pageBits_) - 1)];
-            if (slot == nullptr) slot = reinterpret_cast<SurfaceNode*>(allocate(shard, nodeBytes_));
-            if (slot != nullptr) return slot;
-        }
+/// Divides the triangle of a node, which contains the point of the record, unless that is not to be.
+void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record) {
+    node->parent |= kFinal;
+    const SurfacePlace& place = placeOf(record);
+    std::uint32_t u = 0, v = 0, level = 0;
+    coordinates(record, u, v);
+    SurfaceRef* slot = slotOf(place.face);
+    while (slot->kind() == SurfaceRef::inner) {
+        slot = slot->children() + descend(u, v);
+        ++level;
     }
-    return binOf(face);
+    std::uint32_t which = 0;
+    if (slot->kind() == SurfaceRef::leaves) {
+        which = descend(u, v);
+        ++level;
+    }
+    assert(slot->end(which, nodeBytes_) == node);
+    if (mayDivide(place, level) && !divide(shard, *slot, which)) bump(shard.refused, 1);
 }
 
-SurfaceNode* SurfaceStore::binOf(std::uint32_t face) {
-    SurfaceNode*& slot = bins_[run(face)];
-    if (slot == nullptr) {
+/// False beyond the budget.
+bool SurfaceStore::divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which) {
+    SurfaceNode* node = ref.end(which, nodeBytes_);
+    SurfaceRef* four = nullptr;
+    if (ref.kind() == SurfaceRef::leaves) {  // its three siblings stay as they are
+        four = reinterpret_cast<SurfaceRef*>(allocate(shard, 4 * sizeof(SurfaceRef)));
+        if (four == nullptr) return false;
+        for (std::uint32_t i = 0; i < 4; ++i) four[i] = {ref.end(i, nodeBytes_), SurfaceRef::leaf};
+    }
+    auto* nodes = reinterpret_cast<SurfaceNode*>(allocate(shard, 4 * nodeBytes_));
+    if (nodes == nullptr) return false;
+    const SurfaceRef divided(nodes, SurfaceRef::leaves);
+    for (std::uint32_t i = 0; i < 4; ++i)
+        divided.end(i, nodeBytes_)->parent = reinterpret_cast<std::uintptr_t>(node);
+    if (four == nullptr) {
+        ref = divided;
+    } else {
+        four[which] = divided;
+        ref = SurfaceRef(four, SurfaceRef::inner);
+    }
+    return true;
+}
+
+bool SurfaceStore::mayDivide(const SurfacePlace& place, std::uint32_t level) const {
+    if (level >= options_.maximumLevel) return false;
+    const auto face = static_cast<std::uint32_t>(place.face - faceStarts_[place.mesh]);
+    const double childArea = std::ldexp(area(place.mesh, face), -2 * static_cast<int>(level + 1));
+    return childArea > 0 && childArea >= minimumArea_;
+}
+
+SurfaceRef* SurfaceStore::slotOf(std::uint32_t face) const {
+    if (!storesFaces_) return nullptr;
+    Page* page = pages_[face >> pageBits_];
+    return page == nullptr ? nullptr : &page->roots[face & ((1u << pageBits_) - 1)];
+}
+
+SurfaceRef* SurfaceStore::newRoot(SurfaceShard& shard, std::uint32_t face) {
+    if (!storesFaces_) return nullptr;
+    Page*& page = pages_[face >> pageBits_];
+    if (page == nullptr) page = reinterpret_cast<Page*>(allocate(shard, pageBytes_));
+    if (page == nullptr) return nullptr;
+    std::byte* node = allocate(shard, nodeBytes_);
+    if (node == nullptr) return nullptr;
+    SurfaceRef* slot = slotOf(face);
+    *slot = SurfaceRef(node, SurfaceRef::leaf);
+    return slot;
+}
+
+SurfaceRef* SurfaceStore::binOf(std::uint32_t face) {
+    SurfaceRef& slot = bins_[run(face)];
+    if (!slot) {
         // The budget was divided with room for it.
-        slot = static_cast<SurfaceNode*>(::operator new(nodeBytes_));
-        std::memset(static_cast<void*>(slot), 0, nodeBytes_);
-        slot->children = kFinal;
+        auto* node = static_cast<SurfaceNode*>(::operator new(nodeBytes_));
+        std::memset(static_cast<void*>(node), 0, nodeBytes_);
+        node->parent = kFinal;
+        slot = SurfaceRef(node, SurfaceRef::leaf);
         addUsed(nodeBytes_);
     }
-    return slot;
+    return &slot;
 }
 
 }  // namespace emca::detail

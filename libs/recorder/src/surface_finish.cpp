@@ -115,13 +115,13 @@ class TreeWalk {
           even_(kEvenSharePart * double(store.options().samplesPerDivision)) {}
 
     /// A face that was divided or not, of so much area.
-    void walk(const SurfaceNode* root, double area, Leaves& leaves) {
-        if (!SurfaceStore::isDivided(root)) {
-            totals_.add(store_, root);
+    void walk(SurfaceRef root, double area, Leaves& leaves) {
+        if (!root.isDivided()) {
+            totals_.add(store_, root.node());
             leaves.bit(false);
             leaves.areas.push_back(static_cast<float>(area));
             leaves.rows.resize(leaves.rows.size() + width_);
-            addNode(store_, root, 1, &leaves.rows[leaves.rows.size() - width_]);
+            addNode(store_, root.node(), 1, &leaves.rows[leaves.rows.size() - width_]);
             return;
         }
         list(root);
@@ -130,12 +130,12 @@ class TreeWalk {
     }
 
   private:
-    struct Item { const SurfaceNode* node; std::uint32_t parent, level; std::uint32_t children[4]; };
+    struct Item { SurfaceRef ref; const SurfaceNode* node; std::uint32_t parent, level; std::uint32_t children[4]; };
 
     /// All nodes in pre-order.
-    void list(const SurfaceNode* root) {
+    void list(SurfaceRef root) {
         items_.clear();
-        stack_.assign(1, {root, 0, 0, {}});
+        stack_.assign(1, {root, root.own(), 0, 0, {}});
         while (!stack_.empty()) {
             const auto index = static_cast<std::uint32_t>(items_.size());
             Item item = stack_.back();
@@ -145,9 +145,11 @@ class TreeWalk {
                 Item& parent = items_[item.parent];
                 parent.children[item.children[0]] = index;  // until now: which of the four it is
             }
-            if (SurfaceStore::isDivided(item.node) && item.level < kMaxSurfaceLevel)
-                for (std::uint32_t i = 4; i-- > 0;)
-                    stack_.push_back({SurfaceStore::child(item.node, i, store_.nodeBytes()), index, item.level + 1, {i}});
+            if (item.ref.isDivided())
+                for (std::uint32_t i = 4; i-- > 0;) {
+                    const SurfaceRef child = item.ref.child(i, store_.nodeBytes());
+                    stack_.push_back({child, child.own(), index, item.level + 1, {i}});
+                }
             items_.push_back(item);
         }
     }
@@ -170,7 +172,7 @@ class TreeWalk {
             const Item& item = items_[i];
             double* row = &inherited_[i * width_];
             addNode(store_, item.node, 1, row);
-            const bool divided = SurfaceStore::isDivided(item.node) && item.level < kMaxSurfaceLevel;
+            const bool divided = item.ref.isDivided();
             if (item.level < kMaxSurfaceLevel) leaves.bit(divided);
             if (divided) {
                 share(item, row);
@@ -226,12 +228,10 @@ Leaves leavesOf(const SurfaceStore& store, std::uint32_t mesh, std::uint32_t wid
         const auto face = static_cast<std::uint32_t>(f);
         const double area = store.area(mesh, static_cast<std::uint32_t>(f - first));
         constexpr std::uint64_t kAhead = 12;
-        if (f + kAhead < end) __builtin_prefetch(store.root(static_cast<std::uint32_t>(f + kAhead)));
-        if (f + kAhead / 2 < end)
-            if (const SurfaceNode* soon = store.root(static_cast<std::uint32_t>(f + kAhead / 2));
-                soon && SurfaceStore::isDivided(soon))
-                for (std::uint32_t i = 0; i < 4; ++i) __builtin_prefetch(SurfaceStore::child(soon, i, store.nodeBytes()));
-        if (const SurfaceNode* root = store.root(face)) {
+        if (f + kAhead < end)
+            if (const SurfaceRef soon = store.root(static_cast<std::uint32_t>(f + kAhead)); soon)
+                for (std::uint32_t i = 0; i < 4; ++i) __builtin_prefetch(soon.end(i, store.nodeBytes()));
+        if (const SurfaceRef root = store.root(face); root) {
             trees.walk(root, area, leaves);
             continue;
         }

@@ -1,7 +1,7 @@
 #include "emca/recorder/surface_recorder.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <new>
 #include <thread>
 
@@ -21,17 +21,22 @@ SurfaceCursorImpl::~SurfaceCursorImpl() {
     for (SurfaceBlock* block : blocks) ::operator delete(block);
 }
 
-std::uint32_t* SurfaceCursorImpl::append(std::uint32_t face, std::uint32_t u, std::uint32_t v, std::uint32_t shard) {
+std::uint32_t* SurfaceCursorImpl::append(const SurfacePlace& place, std::uint32_t flags, std::uint32_t shard) {
     Open& to = open[shard];
     const std::uint32_t words = store.recordWords();
     if (static_cast<std::size_t>(to.end - to.next) < words) [[unlikely]] replaceBlock(shard);
     std::uint32_t* record = to.next;
     to.next += words;
-    record[0] = face;
-    record[1] = u;
-    record[2] = v;
-    // The masks; values are read only where a mask says so.
-    for (const std::uint16_t word : store.maskWords()) record[word] = 0;
+    // Word by word: what was just written in words cannot be forwarded to a wider load.
+    record[0] = place.face;
+    record[1] = place.mesh;
+    record[2] = place.where[0];
+    record[3] = place.where[1];
+    record[4] = place.where[2];
+    static_assert(kPlaceWords == 5);
+    record[kPlaceWords] = flags;
+    // The other masks; values are read only where a mask says so.
+    for (std::size_t i = 1; i < store.maskWords().size(); ++i) record[store.maskWords()[i]] = 0;
     return record;
 }
 
@@ -71,7 +76,7 @@ SurfaceBlock* SurfaceCursorImpl::newBlock() {
 void SurfaceCursorState::addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value) {
     SurfaceCursorImpl& cursor = *at.cursor_->impl;
     if (!finiteBits(value.r) || !finiteBits(value.g) || !finiteBits(value.b)) return cursor.countInvalid();
-    std::uint32_t* record = cursor.append(at.face_, at.u_, at.v_ | kNotCounted, at.shard_);
+    std::uint32_t* record = cursor.append(at.place_, at.flags_ | kNotCounted, at.shard_);
     record[layer.maskWord_] |= 1u << layer.bit_;
     record[layer.value_] = std::bit_cast<std::uint32_t>(value.r);
     if (layer.channels_ == 1) return;
@@ -169,10 +174,21 @@ Result<SurfaceLayer> SurfaceRecorder::addLayer(LayerDescription description) {
             return refuse(ErrorCode::invalidArgument, "there is one of this name; choose another.");
     if (store.descriptions().size() >= kMaxSurfaceLayers)
         return refuse(ErrorCode::tooLarge, "there are already as many as a recorder holds; use a second recorder.");
+    const std::string name = description.name;
+    store.addLayer(std::move(description));
+    return find(name);
+}
+
+SurfaceLayer SurfaceRecorder::find(std::string_view name) const {
+    const detail::SurfaceStore& store = *impl_->store;
+    const auto& all = store.descriptions();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& layer) { return layer.name == name; });
     SurfaceLayer layer;
+    if (found == all.end()) return layer;
+    const auto index = static_cast<std::size_t>(found - all.begin());
+    const detail::SurfaceLayerLayout& layout = store.layouts()[index];
     layer.recorder_ = &store;
-    layer.index_ = static_cast<std::uint16_t>(store.descriptions().size());
-    const detail::SurfaceLayerLayout& layout = store.addLayer(std::move(description));
+    layer.index_ = static_cast<std::uint16_t>(index);
     layer.maskWord_ = layout.maskWord;
     layer.value_ = layout.valueWord;
     layer.bit_ = layout.bit;
@@ -203,44 +219,38 @@ SurfaceCursor& SurfaceRecorder::cursor() {
     return *entries.back().handle;
 }
 
-SurfacePoint SurfaceCursor::place(std::uint64_t face, std::uint32_t u, std::uint32_t v) {
+SurfacePoint SurfaceCursor::record(std::uint32_t mesh, std::uint32_t face, Vec3f where, bool isPosition) {
+    if (state_ == nullptr) return {};
     detail::SurfaceCursorImpl& cursor = *state_->impl;
+    const auto& starts = cursor.store.faceStarts();
+    if (mesh >= cursor.store.meshes().size() || face >= starts[mesh + 1] - starts[mesh] ||
+        starts[mesh] + face > 0xffffffffu || !detail::finiteBits(where.x) || !detail::finiteBits(where.y) ||
+        !detail::finiteBits(where.z)) {
+        cursor.countInvalid();
+        return {};
+    }
     SurfacePoint at;
     at.cursor_ = state_;
-    at.face_ = static_cast<std::uint32_t>(face);
-    at.u_ = u;
-    at.v_ = v;
-    at.shard_ = cursor.store.shardOf(at.face_);
-    at.record_ = cursor.append(at.face_, u, v, at.shard_);
+    at.place_.face = static_cast<std::uint32_t>(starts[mesh] + face);
+    at.place_.mesh = mesh;
+    if (isPosition) {
+        at.flags_ = detail::kIsPosition;
+        for (int i = 0; i < 3; ++i) at.place_.where[i] = std::bit_cast<std::uint32_t>(where[i]);
+    } else {
+        detail::toFixed(where.x, where.y, at.place_.where[0], at.place_.where[1]);
+    }
+    at.shard_ = cursor.store.shardOf(at.place_.face);
+    at.record_ = cursor.append(at.place_, at.flags_, at.shard_);
     at.serial_ = cursor.serialNumbers[at.shard_];
     return at;
 }
 
 SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
-    if (state_ == nullptr) return {};
-    detail::SurfaceCursorImpl& cursor = *state_->impl;
-    const auto& starts = cursor.store.faceStarts();
-    if (mesh >= cursor.store.meshes().size() || face >= starts[mesh + 1] - starts[mesh] ||
-        starts[mesh] + face > 0xffffffffu || !detail::finiteBits(barycentrics.x) || !detail::finiteBits(barycentrics.y)) {
-        cursor.countInvalid();
-        return {};
-    }
-    std::uint32_t u = 0, v = 0;
-    detail::toFixed(barycentrics.x, barycentrics.y, u, v);
-    return place(starts[mesh] + face, u, v);
+    return record(mesh, face, {barycentrics.x, barycentrics.y, 0}, false);
 }
 
 SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f position) {
-    if (state_ == nullptr) return {};
-    const detail::SurfaceStore& store = state_->impl->store;
-    Vec2f at;
-    if (mesh < store.meshes().size() && face < store.meshes()[mesh].triangles.size()) {
-        if (!detail::finiteBits(position.x) || !detail::finiteBits(position.y) || !detail::finiteBits(position.z))
-            at.x = std::numeric_limits<float>::quiet_NaN();
-        else
-            at = store.barycentrics(mesh, face, position);
-    }
-    return locate(mesh, face, at);
+    return record(mesh, face, position, true);
 }
 
 SurfaceField SurfaceRecorder::finish() {

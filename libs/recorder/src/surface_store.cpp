@@ -9,6 +9,8 @@
 #include <new>
 #include <thread>
 
+#include "emca/core/surface_tree.h"
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -18,7 +20,7 @@ namespace {
 
 constexpr std::size_t kSlabBytes = 2u << 20;  // one huge page, where the system has them
 constexpr std::size_t kMaximumChunkBytes = 32u << 10;
-constexpr std::uint32_t kMaximumShards = 64;
+constexpr std::uint32_t kMaximumShards = 256;
 constexpr std::size_t kMaximumBlockBytes = 4096;
 
 constexpr std::size_t roundUp(std::size_t n, std::size_t to) { return (n + to - 1) / to * to; }
@@ -43,14 +45,14 @@ SurfaceStore::SurfaceStore(std::vector<SurfaceMeshView> meshes, SurfaceOptions o
 
 SurfaceStore::~SurfaceStore() {
     for (std::uint64_t i = 0; i < slabCount_; ++i) std::free(slabs_[i].load(std::memory_order_relaxed));
-    for (std::uint64_t i = 0; i < runCount_; ++i) ::operator delete(bins_[i]);
+    for (std::uint64_t i = 0; i < runCount_; ++i) ::operator delete(bins_[i].node());
 }
 
 const SurfaceLayerLayout& SurfaceStore::addLayer(LayerDescription description) {
     SurfaceLayerLayout layout;
     layout.channels = static_cast<std::uint8_t>(channelCount(description.kind));
-    layout.bit = static_cast<std::uint8_t>(layouts_.size() % 32);
-    if (layout.bit == 0) maskWords_.push_back(static_cast<std::uint16_t>(recordWords_++));
+    layout.bit = static_cast<std::uint8_t>((layouts_.size() + kFirstMaskFlags) % 32);
+    if (layouts_.empty() || layout.bit == 0) maskWords_.push_back(static_cast<std::uint16_t>(recordWords_++));
     layout.maskWord = maskWords_.back();
     layout.valueWord = static_cast<std::uint16_t>(recordWords_);
     recordWords_ += layout.channels;
@@ -82,7 +84,8 @@ void SurfaceStore::divideBudget() {
     // Blocks: what all threads may hold back, and as much on the way.
     const std::size_t threads = 2 * std::max(1u, std::thread::hardware_concurrency());
     const std::size_t leastBlock = roundUp(sizeof(SurfaceBlock) + 4 * sizeof(std::uint32_t) * recordWords_, 64);
-    shardCount_ = kMaximumShards;
+    // Enough that threads seldom meet, few enough that the open blocks stay in the cache.
+    shardCount_ = std::min(kMaximumShards, std::bit_ceil(static_cast<std::uint32_t>(4 * threads)));
     blockBytes_ = std::max(kMaximumBlockBytes, leastBlock);
     const auto forThreads = [&] { return threads * 2 * shardCount_ * blockBytes_; };
     while (forThreads() > budget / 8 && (shardCount_ > 1 || blockBytes_ > leastBlock)) {
@@ -96,16 +99,16 @@ void SurfaceStore::divideBudget() {
     // The table of faces: pages of neighbouring faces, many enough to spread over the shards.
     const std::uint64_t perShard = faceCount_ / (16 * shardCount_);
     pageBits_ = std::min(6u, perShard > 0 ? static_cast<std::uint32_t>(std::bit_width(perShard)) - 1 : 0u);
-    pageBytes_ = sizeof(SurfaceNode*) << pageBits_;
+    pageBytes_ = sizeof(SurfaceRef) << pageBits_;
     const std::uint64_t pageCount = (faceCount_ + (std::uint64_t(1) << pageBits_) - 1) >> pageBits_;
     storesFaces_ = pageCount * sizeof(Page*) <= budget / 8;
     // Bins that are always there, so that no sample can be lost.
     const auto runs = [&] { return (pageCount + (std::uint64_t(1) << runBits_) - 1) >> runBits_; };
-    while (runs() > 1 && runs() * (nodeBytes_ + sizeof(SurfaceNode*)) > budget / 16) ++runBits_;
+    while (runs() > 1 && runs() * (nodeBytes_ + sizeof(SurfaceRef)) > budget / 16) ++runBits_;
     runCount_ = runs();
-    bins_ = std::make_unique<SurfaceNode*[]>(std::max<std::uint64_t>(1, runCount_));
-    addUsed(runCount_ * sizeof(SurfaceNode*));
-    std::size_t taken = forThreads() + runCount_ * (nodeBytes_ + sizeof(SurfaceNode*));
+    bins_ = std::make_unique<SurfaceRef[]>(std::max<std::uint64_t>(1, runCount_));
+    addUsed(runCount_ * sizeof(SurfaceRef));
+    std::size_t taken = forThreads() + runCount_ * (nodeBytes_ + sizeof(SurfaceRef));
     if (storesFaces_) {
         pages_ = std::make_unique<Page*[]>(std::max<std::uint64_t>(1, pageCount));
         addUsed(pageCount * sizeof(Page*));
@@ -170,28 +173,30 @@ double SurfaceStore::area(std::uint32_t mesh, std::uint32_t face) const {
     return std::isfinite(area) ? area : 0;
 }
 
-Vec2f SurfaceStore::barycentrics(std::uint32_t mesh, std::uint32_t face, Vec3f position) const {
-    const SurfaceMeshView& view = meshes_[mesh];
-    const Triangle t = view.triangles[face];
+void SurfaceStore::toBarycentrics(const SurfacePlace& place, std::uint32_t& u, std::uint32_t& v) const {
+    u = v = 0;
+    const SurfaceMeshView& view = meshes_[place.mesh];
+    const Triangle t = view.triangles[place.face - faceStarts_[place.mesh]];
     const std::size_t count = view.positions.size();
-    if (t[0] >= count || t[1] >= count || t[2] >= count) return {};
+    if (t[0] >= count || t[1] >= count || t[2] >= count) return;
     // Doubles: in thin triangles single precision would move points by many faces of the subdivision.
     const auto wide = [](Vec3f q) { return Vec3d{double(q.x), double(q.y), double(q.z)}; };
     const Vec3d origin = wide(view.positions[t[0]]);
     const Vec3d e1 = wide(view.positions[t[1]]) - origin, e2 = wide(view.positions[t[2]]) - origin;
+    const Vec3f position{std::bit_cast<float>(place.where[0]), std::bit_cast<float>(place.where[1]),
+                         std::bit_cast<float>(place.where[2])};
     const Vec3d d = wide(position) - origin, n = cross(e1, e2);
     const double scale = 1 / dot(n, n);
-    const Vec2f b{float(dot(cross(d, e2), n) * scale), float(dot(cross(e1, d), n) * scale)};
-    return detail::finiteBits(b.x) && detail::finiteBits(b.y) ? b : Vec2f{};
+    const float fu = float(dot(cross(d, e2), n) * scale), fv = float(dot(cross(e1, d), n) * scale);
+    if (finiteBits(fu) && finiteBits(fv)) toFixed(fu, fv, u, v);
 }
 
-const SurfaceNode* SurfaceStore::root(std::uint32_t face) const {
-    if (!pages_) return nullptr;
-    const Page* page = pages_[face >> pageBits_];
-    return page == nullptr ? nullptr : page->roots[face & ((1u << pageBits_) - 1)];
+SurfaceRef SurfaceStore::root(std::uint32_t face) const {
+    const SurfaceRef* slot = slotOf(face);
+    return slot == nullptr ? SurfaceRef() : *slot;
 }
 
-SurfaceNode* SurfaceStore::rootForTest(std::uint32_t face) { return rootOrBin(shards_[shardOf(face)], face); }
+SurfaceNode* SurfaceStore::rootForTest(std::uint32_t face) { return newRoot(shards_[shardOf(face)], face)->node(); }
 
 SurfaceCounts SurfaceStore::counts() const {
     SurfaceCounts counts;

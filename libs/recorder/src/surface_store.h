@@ -19,7 +19,38 @@ struct SurfaceCursorImpl;
 /// sample touches one or a few neighbouring cache lines. Only the owner of its shard reads or writes it.
 struct SurfaceNode {
     std::uint64_t points;
-    SurfaceNode* children;  ///< four, one after the other; null: none yet
+    std::uintptr_t parent;  ///< address of the node that this one is a quarter of, or 0; lowest bit: never divides (again)
+};
+
+/// How a triangle is reached: where it ends, without a look at the nodes on the way, whose cache lines stay cold. Not
+/// divided: its node. Divided into four that are not: those nodes, one after the other. Else: the four references of its
+/// children. Zero: nothing yet. The node of a divided triangle is the parent of its children's.
+class SurfaceRef {
+  public:
+    enum Kind : std::uintptr_t { inner = 0, leaf = 1, leaves = 2 };
+    SurfaceRef() = default;
+    SurfaceRef(const void* target, Kind kind) : word_(reinterpret_cast<std::uintptr_t>(target) | kind) {}
+    explicit operator bool() const { return word_ != 0; }
+    Kind kind() const { return Kind(word_ & 3); }
+    SurfaceNode* node() const { return reinterpret_cast<SurfaceNode*>(word_ & ~std::uintptr_t(3)); }  ///< leaf, leaves
+    SurfaceRef* children() const { return reinterpret_cast<SurfaceRef*>(word_); }                       ///< inner
+    /// Of a leaf itself, of leaves the child: without a branch, as it cannot be predicted.
+    SurfaceNode* end(std::uint32_t which, std::size_t nodeBytes) const {
+        return reinterpret_cast<SurfaceNode*>((word_ & ~std::uintptr_t(3)) + (word_ >> 1 & 1) * which * nodeBytes);
+    }
+    bool isDivided() const { return kind() != leaf; }
+    SurfaceRef child(std::uint32_t which, std::size_t nodeBytes) const {
+        return kind() == inner ? children()[which] : SurfaceRef(end(which, nodeBytes), leaf);
+    }
+    /// The triangle's own node.
+    const SurfaceNode* own() const {
+        if (kind() == leaf) return node();
+        const SurfaceNode* below = kind() == leaves ? node() : children()[0].own();
+        return reinterpret_cast<const SurfaceNode*>(below->parent & ~std::uintptr_t(1));
+    }
+
+  private:
+    std::uintptr_t word_ = 0;
 };
 
 /// What one layer knows of one node, followed by `channels` sums. Doubles: a float stops counting at 2^24.
@@ -35,10 +66,12 @@ struct SurfaceLayerLayout {
     std::uint8_t bit = 0, channels = 1;
 };
 
-/// What a thread has to say about one point: global face, u, v in units of 2^-30, then for each 32 layers a word that
-/// tells which values are there, and room for all values. The highest bit of v: not counted, as its point already is.
-constexpr std::uint32_t kRecordHeaderWords = 3;
-constexpr std::uint32_t kNotCounted = 1u << 31;
+/// What a thread has to say about one point, in words of 32 bits: a SurfacePlace, then for each 32 layers (30 in the first) a
+/// mask that tells which values are there, and room for all values. Positions become barycentric coordinates only when
+/// the record is applied, where the loads of many triangles overlap.
+constexpr std::uint32_t kPlaceWords = sizeof(SurfacePlace) / sizeof(std::uint32_t);
+/// Bits of the first mask.
+constexpr std::uint32_t kNotCounted = 1, kIsPosition = 2, kFirstMaskFlags = 2;
 
 /// Records for one shard, on their way from the thread that made them to whoever applies them.
 struct SurfaceBlock {
@@ -90,23 +123,19 @@ class SurfaceStore {
     std::uint32_t meshOf(std::uint32_t face) const;
     /// World-space area of a face of the scene; 0 if it has none or a vertex is missing or not finite.
     double area(std::uint32_t mesh, std::uint32_t face) const;
-    /// Weights of a face's second and third vertex at a place; 0, 0 if it has no area.
-    Vec2f barycentrics(std::uint32_t mesh, std::uint32_t face, Vec3f position) const;
+    /// From a position to u, v in units of 2^-30; 0, 0 on a face that has no area.
+    void toBarycentrics(const SurfacePlace& place, std::uint32_t& u, std::uint32_t& v) const;
 
     // For post-processing, while no thread records.
-    const SurfaceNode* root(std::uint32_t face) const;
-    const SurfaceNode* bin(std::uint32_t face) const { return bins_ ? bins_[run(face)] : nullptr; }
+    SurfaceRef root(std::uint32_t face) const;
+    const SurfaceNode* bin(std::uint32_t face) const { return binOfRun(run(face)); }
     std::uint64_t runCount() const { return runCount_; }
-    const SurfaceNode* binOfRun(std::uint64_t index) const { return bins_[index]; }
+    const SurfaceNode* binOfRun(std::uint64_t index) const { return bins_[index].node(); }
     std::uint64_t run(std::uint32_t face) const { return std::uint64_t(face) >> (pageBits_ + runBits_); }
     std::uint64_t facesPerRun() const { return std::uint64_t(1) << (pageBits_ + runBits_); }
     /// Makes the root of a face exist, for tests that begin with full counters.
     SurfaceNode* rootForTest(std::uint32_t face);
 
-    static const SurfaceNode* child(const SurfaceNode* node, std::uint32_t i, std::size_t bytes) {
-        return reinterpret_cast<const SurfaceNode*>(reinterpret_cast<const std::byte*>(node->children) + i * bytes);
-    }
-    static bool isDivided(const SurfaceNode* node) { return node->children > kFinal; }
     template <typename Cell, typename Node>
     static Cell* cell(Node* node, const SurfaceLayerLayout& layer) {
         using Byte = std::conditional_t<std::is_const_v<Node>, const std::byte, std::byte>;
@@ -121,25 +150,32 @@ class SurfaceStore {
     const std::vector<SurfaceLayerLayout>& layouts() const { return layouts_; }
     std::size_t nodeBytes() const { return nodeBytes_; }
     std::uint32_t recordWords() const { return recordWords_; }
-    const std::vector<std::uint16_t>& maskWords() const { return maskWords_; }  ///< of a record, one for 32 layers
+    const std::vector<std::uint16_t>& maskWords() const { return maskWords_; }  ///< of a record
     std::uint32_t shardCount() const { return shardCount_; }
     std::size_t blockBytes() const { return blockBytes_; }
     std::uint32_t blocksPerCursor() const { return 2 * shardCount_; }
     void addUsed(std::size_t bytes) { bytesUsed_.fetch_add(bytes, std::memory_order_relaxed); }
 
   private:
-    struct Page { SurfaceNode* roots[1]; };
+    struct Page { SurfaceRef roots[1]; };
     struct Lane;
-    static SurfaceNode* const kFinal;  ///< in SurfaceNode::children: never divides
+    static constexpr std::uintptr_t kFinal = 1;  ///< in SurfaceNode::parent
 
     void divideBudget();
     void applyWaiting(SurfaceShard& shard);
     void apply(SurfaceShard& shard, SurfaceBlock& block);
-    std::uint32_t enter(SurfaceShard& shard, const std::uint32_t* records, std::uint32_t count, Lane* lanes);
+    void prefetchFaces(const std::uint32_t* record, std::uint32_t count) const;
+    void prefetchVertices(const std::uint32_t* record, std::uint32_t count) const;
+    std::uint32_t enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
+    void descendAll(Lane* lanes, std::uint32_t count) const;
     void addRecord(SurfaceShard& shard, Lane& lane);
-    void divide(SurfaceShard& shard, SurfaceNode* node, std::uint32_t face, std::uint32_t level);
-    SurfaceNode* rootOrBin(SurfaceShard& shard, std::uint32_t face);
-    SurfaceNode* binOf(std::uint32_t face);
+    void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
+    bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
+    bool mayDivide(const SurfacePlace& place, std::uint32_t level) const;
+    SurfaceRef* slotOf(std::uint32_t face) const;
+    SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
+    SurfaceRef* binOf(std::uint32_t face);
+    void coordinates(const std::uint32_t* record, std::uint32_t& u, std::uint32_t& v) const;
     std::byte* allocate(SurfaceShard& shard, std::size_t bytes);  ///< zeros; null beyond the budget
     bool nextChunk(SurfaceShard& shard);
 
@@ -153,7 +189,7 @@ class SurfaceStore {
     std::vector<SurfaceLayerLayout> layouts_;
     std::vector<std::uint16_t> maskWords_;
     std::size_t nodeBytes_ = sizeof(SurfaceNode);
-    std::uint32_t recordWords_ = kRecordHeaderWords;
+    std::uint32_t recordWords_ = kPlaceWords;
 
     std::uint32_t pageBits_ = 0, runBits_ = 0, shardCount_ = 0;
     std::size_t blockBytes_ = 0, chunkBytes_ = 0, chunksPerSlab_ = 1, pageBytes_ = 0;
@@ -161,7 +197,7 @@ class SurfaceStore {
     bool storesFaces_ = true;  ///< false if the budget does not even hold a table of faces: bins only
     std::unique_ptr<SurfaceShard[]> shards_;
     std::unique_ptr<Page*[]> pages_;        ///< 2^pageBits faces each; written by the owner of their shard
-    std::unique_ptr<SurfaceNode*[]> bins_;  ///< one per run of 2^runBits pages, for faces without storage
+    std::unique_ptr<SurfaceRef[]> bins_;  ///< one per run of 2^runBits pages, for faces without storage
     std::unique_ptr<std::atomic<std::byte*>[]> slabs_;
     std::uint64_t slabCount_ = 0, runCount_ = 0;
     std::atomic<std::uint64_t> nextChunk_{0};
@@ -179,8 +215,8 @@ struct SurfaceCursorImpl : SurfaceCursorState {
 
     struct Open { std::uint32_t* next = nullptr; std::uint32_t* end = nullptr; SurfaceBlock* block = nullptr; };
 
-    /// A new record with no values.
-    std::uint32_t* append(std::uint32_t face, std::uint32_t u, std::uint32_t v, std::uint32_t shard);
+    /// A new record with no values, and `flags` in its first mask.
+    std::uint32_t* append(const SurfacePlace& place, std::uint32_t flags, std::uint32_t shard);
     void replaceBlock(std::uint32_t shard);
     SurfaceBlock* newBlock();
     void countInvalid() { invalid.store(invalid.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "emca/core/color.h"
@@ -17,6 +18,13 @@ namespace emca {
 namespace detail {
 struct SurfaceCursorState;
 struct SurfaceCursorImpl;
+
+/// A point on one of all faces of all meshes.
+struct SurfacePlace {
+    std::uint32_t face = 0;   ///< of all meshes
+    std::uint32_t mesh = 0;
+    std::uint32_t where[3]{}; ///< bits of a position; or u, v in units of 2^-30
+};
 }
 
 constexpr std::size_t kMaxSurfaceLayers = 4096;  ///< of one recorder
@@ -49,7 +57,8 @@ class SurfacePoint {
     detail::SurfaceCursorState* cursor_ = nullptr;
     std::uint32_t* record_ = nullptr;   ///< where values go while the block it is part of is still open
     std::uint32_t serial_ = 0, shard_ = 0;
-    std::uint32_t face_ = 0, u_ = 0, v_ = 0;  ///< for values that come later than that
+    detail::SurfacePlace place_;        ///< for values that come later than that
+    std::uint32_t flags_ = 0;
 };
 
 /// Handle to a layer of a recorder, a plain value. The default one belongs to no layer and ignores what is added, so that
@@ -89,13 +98,13 @@ class SurfaceCursor {
     ///                  counted as invalid, and the returned place ignores what is added. A triangle without area keeps
     ///                  its points at its first vertex.
     SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec3f position);
-    /// The same with barycentric coordinates, weights of the second and third vertex: faster, no vertex is read.
+    /// The same with barycentric coordinates, weights of the second and third vertex: faster, as no vertex is read.
     SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics);
 
   private:
     friend class SurfaceRecorder;
     SurfaceCursor() = default;
-    SurfacePoint place(std::uint64_t face, std::uint32_t u, std::uint32_t v);
+    SurfacePoint record(std::uint32_t mesh, std::uint32_t face, Vec3f where, bool isPosition);
     detail::SurfaceCursorState* state_ = nullptr;
 };
 
@@ -134,6 +143,8 @@ class SurfaceRecorder {
     /// Before any thread calls cursor(). Errors: invalidArgument (name empty or taken, called after cursor()), tooLarge
     /// (more than kMaxSurfaceLayers).
     Result<SurfaceLayer> addLayer(LayerDescription description);
+    /// The layer of this name; where nobody asked for it, the default handle, which ignores what is added.
+    SurfaceLayer find(std::string_view name) const;
 
     /// This thread's cursor: fetch it once per path or tile. Valid until the thread or the recorder ends.
     SurfaceCursor& cursor();
