@@ -25,6 +25,12 @@ void Dataset::setMeshes(std::shared_ptr<const std::vector<Mesh>> meshes) {
     changed(DatasetPart::meshes);
 }
 
+void Dataset::setSurface(std::shared_ptr<const SurfaceField> surface) {
+    if (!surface && !surface_) return;
+    surface_ = std::move(surface);
+    changed(DatasetPart::surface);
+}
+
 std::size_t Dataset::addImage(ImageEntry image) {
     images_.push_back(std::move(image));
     currentImage_ = images_.size() - 1;
@@ -76,11 +82,14 @@ void Dataset::setCurrent(std::vector<std::shared_ptr<const Trace>> traces) {
 void Dataset::clearScene() {
     camera_.reset();
     meshes_.reset();
+    const bool hadSurface = surface_ != nullptr;
+    surface_.reset();
     traces_.clear();
     current_.clear();
     paths_ = {};
     for (ImageEntry& image : images_) image.renderId = 0;
     std::uint32_t parts = DatasetPart::camera | DatasetPart::meshes | DatasetPart::traces | DatasetPart::currentTrace;
+    if (hadSurface) parts |= DatasetPart::surface;
     if (!images_.empty()) parts |= DatasetPart::images;
     changed(parts);
 }

@@ -11,12 +11,12 @@ Error violation(std::string what) {
 }
 
 /// The subdivision of every mesh, and where its faces are in the value arrays.
-Result<void> validateMeshes(const SurfaceField& field, std::span<const Mesh> meshes) {
-    if (field.meshes.size() != meshes.size())
-        return violation("the scene has " + std::to_string(meshes.size()) + " meshes, the layers are for " +
+Result<void> validateMeshes(const SurfaceField& field, std::span<const std::uint32_t> triangleCounts) {
+    if (field.meshes.size() != triangleCounts.size())
+        return violation("the scene has " + std::to_string(triangleCounts.size()) + " meshes, the layers are for " +
                          std::to_string(field.meshes.size()));
     std::uint64_t next = 0;
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
+    for (std::size_t i = 0; i < triangleCounts.size(); ++i) {
         const SurfaceMesh& mesh = field.meshes[i];
         const std::string which = "mesh " + std::to_string(i);
         if (mesh.firstFace != next)
@@ -26,7 +26,7 @@ Result<void> validateMeshes(const SurfaceField& field, std::span<const Mesh> mes
             if (!mesh.subdivision.bits.empty()) return violation(which + " has no values, but is divided");
             continue;
         }
-        const auto faces = refinedFaceCount(meshes[i].triangles.size(), mesh.subdivision);
+        const auto faces = refinedFaceCount(triangleCounts[i], mesh.subdivision);
         if (!faces) return faces.error();
         if (*faces != mesh.faceCount)
             return violation(which + " says that it has " + std::to_string(mesh.faceCount) + " faces, but has " +
@@ -65,7 +65,13 @@ float SurfaceField::value(const SurfaceLayerData& layer, std::size_t mesh, std::
 }
 
 Result<void> validate(const SurfaceField& field, std::span<const Mesh> meshes) {
-    if (auto ok = validateMeshes(field, meshes); !ok) return ok;
+    std::vector<std::uint32_t> triangleCounts;
+    for (const Mesh& mesh : meshes) triangleCounts.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    return validate(field, triangleCounts);
+}
+
+Result<void> validate(const SurfaceField& field, std::span<const std::uint32_t> triangleCounts) {
+    if (auto ok = validateMeshes(field, triangleCounts); !ok) return ok;
     const std::uint64_t faces = field.faceCount();
     if (field.points.size() != faces)
         return violation("there are " + std::to_string(field.points.size()) + " point counts for " +

@@ -57,6 +57,10 @@ Info decodeBody(Decoder& d, const wire::Info& m) {
     info.capabilities = d.texts(m.capabilities());
     info.tools = d.texts(m.tools());
     info.latestRender = m.latest_render();
+    info.layers = decodeLayers(d, m.layers());
+    info.surfaceRender = m.surface_render();
+    info.collected = decodeLayers(d, m.collected());
+    info.maximumSurfaceBudget = m.maximum_surface_budget();
     return info;
 }
 CameraRequest decodeBody(Decoder&, const wire::CameraRequest&) { return {}; }
@@ -97,7 +101,7 @@ SceneChunk decodeBody(Decoder& d, const wire::SceneChunk& m) {
     return chunk;
 }
 RenderRequest decodeBody(Decoder& d, const wire::RenderRequest& m) {
-    return {settings(d, m.settings()), m.preview(), m.maximum_chunk_bytes()};
+    return {settings(d, m.settings()), m.preview(), m.maximum_chunk_bytes(), d.texts(m.layers()), m.surface_budget()};
 }
 PreviewTile decodeBody(Decoder& d, const wire::PreviewTile& m) {
     PreviewTile tile{rectangle(m.rect()), d.view<Color>(m.colors())};
@@ -105,7 +109,8 @@ PreviewTile decodeBody(Decoder& d, const wire::PreviewTile& m) {
     return tile;
 }
 RenderResult decodeBody(Decoder& d, const wire::RenderResult& m) {
-    return {m.id(), settings(d, m.settings()), m.seconds(), m.width(), m.height()};
+    return {m.id(), settings(d, m.settings()), m.seconds(), m.width(), m.height(), decodeLayers(d, m.layers()),
+            decodeCounts(m.surface_counts())};
 }
 ImageRows decodeBody(Decoder& d, const wire::ImageRows& m) {
     ImageRows rows{m.first_row(), m.row_count(), d.view<Color>(m.colors()), d.view<float>(m.samples()),
@@ -152,8 +157,10 @@ TraceResult decodeBody(Decoder& d, const wire::TraceResult& m) {
     return result;
 }
 SurfaceRequest decodeBody(Decoder& d, const wire::SurfaceRequest& m) {
-    return {d.texts(m.layers()), settings(d, m.settings()), m.budget()};
+    return {d.texts(m.layers()), settings(d, m.settings()), m.budget(), m.render_id(), m.maximum_chunk_bytes()};
 }
+SurfaceResult decodeBody(Decoder& d, const wire::SurfaceResult& m) { return decodeSurface(d, m); }
+SurfaceChunk decodeBody(Decoder& d, const wire::SurfaceChunk& m) { return decodeSurface(d, m); }
 ToolRequest decodeBody(Decoder& d, const wire::ToolRequest& m) { return {d.text(m.tool()), d.view<std::byte>(m.data())}; }
 ToolResult decodeBody(Decoder& d, const wire::ToolResult& m) { return {d.view<std::byte>(m.data())}; }
 QuitRequest decodeBody(Decoder&, const wire::QuitRequest&) { return {}; }
@@ -185,7 +192,7 @@ Result<Message> decodeAligned(const Frame& frame) {
                   wire::InfoRequest, wire::Info, wire::CameraRequest, wire::Camera, wire::SceneRequest,
                   wire::SceneChunk, wire::RenderRequest, wire::PreviewTile, wire::RenderResult, wire::ImageRows,
                   wire::TraceRequest, wire::TraceResult, wire::SurfaceRequest, wire::ToolRequest, wire::ToolResult,
-                  wire::QuitRequest>(decoder, root, message.body);
+                  wire::QuitRequest, wire::SurfaceResult, wire::SurfaceChunk>(decoder, root, message.body);
     if (!known) message.body = Unknown{static_cast<std::uint8_t>(root.body_type())};
     if (decoder.failed()) return violation(decoder.fault());
     return message;

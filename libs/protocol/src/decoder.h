@@ -71,6 +71,13 @@ class Decoder {
     std::string fault_;
 };
 
+/// Layers of a kind that only later versions know are left out, or fail the message where what follows counts them.
+std::vector<Layer> decodeLayers(Decoder& decoder, const flatbuffers::Vector<flatbuffers::Offset<wire::Layer>>* layers,
+                                bool everyKindMustBeKnown = false);
+SurfaceCounts decodeCounts(const wire::SurfaceCounts* counts);
+SurfaceResult decodeSurface(Decoder& decoder, const wire::SurfaceResult& message);
+SurfaceChunk decodeSurface(Decoder& decoder, const wire::SurfaceChunk& message);
+
 PathSet decodePaths(Decoder& decoder, const wire::Paths* paths);
 
 }  // namespace emca::protocol

@@ -48,9 +48,11 @@ Encoded encodeBody(Builder& b, const Info& m) {
     const auto renderer = text(b, m.renderer), scene = text(b, m.scene), integrator = text(b, m.integrator),
                sampler = text(b, m.sampler);
     const auto capabilities = texts(b, m.capabilities), tools = texts(b, m.tools);
+    const auto layers = encodeLayers(b, m.layers), collected = encodeLayers(b, m.collected);
     return body(wire::CreateInfo(b, renderer, scene, integrator, sampler, m.width, m.height, m.samplesPerPixel, m.seed,
                                  m.concurrent, m.deterministic, m.triangles, m.meshes, m.maximumSamplesPerPixel,
-                                 m.maximumPixelsPerTrace, m.maximumBudget, capabilities, tools, m.latestRender));
+                                 m.maximumPixelsPerTrace, m.maximumBudget, capabilities, tools, m.latestRender, layers, m.surfaceRender,
+                                 collected, m.maximumSurfaceBudget));
 }
 Encoded encodeBody(Builder& b, const CameraRequest&) { return body(wire::CreateCameraRequest(b)); }
 Encoded encodeBody(Builder& b, const Camera& m) {
@@ -77,7 +79,8 @@ Encoded encodeBody(Builder& b, const SceneChunk& m) {
 }
 Encoded encodeBody(Builder& b, const RenderRequest& m) {
     const auto settings = encodeSettings(b, m.settings);
-    return body(wire::CreateRenderRequest(b, settings, m.preview, m.maximumChunkBytes));
+    const auto layers = texts(b, m.layers);
+    return body(wire::CreateRenderRequest(b, settings, m.preview, m.maximumChunkBytes, layers, m.surfaceBudget));
 }
 Encoded encodeBody(Builder& b, const PreviewTile& m) {
     const auto rect = toWire(m.rect);
@@ -86,7 +89,10 @@ Encoded encodeBody(Builder& b, const PreviewTile& m) {
 }
 Encoded encodeBody(Builder& b, const RenderResult& m) {
     const auto settings = encodeSettings(b, m.settings);
-    return body(wire::CreateRenderResult(b, m.id, settings, m.seconds, m.width, m.height));
+    const auto layers = encodeLayers(b, m.layers);
+    const auto counts = toWire(m.surfaceCounts);
+    return body(wire::CreateRenderResult(b, m.id, settings, m.seconds, m.width, m.height, layers,
+                                         m.layers.empty() ? nullptr : &counts));
 }
 Encoded encodeBody(Builder& b, const ImageRows& m) {
     const auto colors = column(b, m.colors);
@@ -121,8 +127,10 @@ Encoded encodeBody(Builder& b, const TraceResult& m) {
 Encoded encodeBody(Builder& b, const SurfaceRequest& m) {
     const auto layers = texts(b, m.layers);
     const auto settings = encodeSettings(b, m.settings);
-    return body(wire::CreateSurfaceRequest(b, layers, settings, m.budget));
+    return body(wire::CreateSurfaceRequest(b, layers, settings, m.budget, m.renderId, m.maximumChunkBytes));
 }
+Encoded encodeBody(Builder& b, const SurfaceResult& m) { return body(encodeSurface(b, m)); }
+Encoded encodeBody(Builder& b, const SurfaceChunk& m) { return body(encodeSurface(b, m)); }
 Encoded encodeBody(Builder& b, const ToolRequest& m) {
     const auto tool = text(b, m.tool);
     const auto data = column(b, m.data, 8);
@@ -150,6 +158,10 @@ std::size_t sizeHint(const PreviewTile& m) { return 256 + m.colors.size() * size
 std::size_t sizeHint(const ImageRows& m) {
     return 256 + (m.colors.size() + m.variance.size()) * sizeof(Color) + m.samples.size() * sizeof(float);
 }
+std::size_t sizeHint(const Info& m) { return 4096 + encodedBytes(m.layers) + encodedBytes(m.collected); }
+std::size_t sizeHint(const RenderResult& m) { return 1024 + encodedBytes(m.layers); }
+std::size_t sizeHint(const SurfaceResult& m) { return 1024 + encodedBytes(m.layers); }
+std::size_t sizeHint(const SurfaceChunk& m) { return encodedBytes(m); }
 std::size_t sizeHint(const TraceRequest& m) {
     std::size_t bytes = 1024 + m.pixels.size() * sizeof(Pixel) + m.colors.size() * sizeof(Color) + m.query.size();
     for (const std::string& column : m.columns) bytes += column.size() + 16;

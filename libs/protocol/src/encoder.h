@@ -40,6 +40,14 @@ inline Offset<flatbuffers::Vector<Offset<flatbuffers::String>>> texts(Builder& b
     return builder.CreateVectorOfStrings(values);
 }
 
+using LayerList = flatbuffers::Vector<Offset<wire::Layer>>;
+Offset<LayerList> encodeLayers(Builder& builder, const std::vector<Layer>& layers);
+wire::SurfaceCounts toWire(const SurfaceCounts& counts);
+Offset<wire::SurfaceResult> encodeSurface(Builder& builder, const SurfaceResult& message);
+Offset<wire::SurfaceChunk> encodeSurface(Builder& builder, const SurfaceChunk& message);
+std::size_t encodedBytes(const std::vector<Layer>& layers);
+std::size_t encodedBytes(const SurfaceChunk& message);
+
 Offset<wire::Paths> encodePaths(Builder& builder, const PathColumns& columns);
 /// Upper bound of what encodePaths adds, so that the builder allocates once.
 std::size_t encodedBytes(const PathColumns& columns);

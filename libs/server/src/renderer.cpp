@@ -36,6 +36,10 @@ struct PixelNotice {
 
 }  // namespace
 
+Result<RenderedImage> Renderer::renderImageWithLayers(const RenderSettings&, SurfaceRecorder&, RequestMonitor&) {
+    return Error{ErrorCode::notSupported, "This renderer announces surface layers, but does not collect them: render without layers."};
+}
+
 Result<std::vector<Color>> Renderer::renderPixels(const std::vector<Pixel>& pixels, const RenderSettings& settings,
                                                   Recording& recording, RequestMonitor& monitor) {
     std::vector<Color> values;

@@ -15,6 +15,7 @@
 #include "emca/core/path_set.h"
 #include "emca/core/replay.h"
 #include "emca/core/result.h"
+#include "emca/core/surface_field.h"
 
 namespace emca::client {
 
@@ -28,6 +29,14 @@ struct Address {
     friend bool operator==(const Address&, const Address&) = default;
 };
 
+/// A layer of 3D data on surfaces that a render has collected.
+struct CollectedLayer {
+    LayerDescription description;
+    std::uint64_t samples = 0;   ///< values added; an exact count
+    double total = 0;            ///< their sum
+    friend bool operator==(const CollectedLayer&, const CollectedLayer&) = default;
+};
+
 /// What the renderer and its server say about themselves.
 struct ServerInfo {
     std::string renderer, scene, integrator, sampler;
@@ -39,6 +48,10 @@ struct ServerInfo {
     std::vector<std::string> capabilities;
     std::vector<std::string> tools;         ///< names of server tools
     std::uint64_t latestRender = 0;         ///< render id of the newest finished image, 0 if none
+    std::vector<LayerDescription> layers;   ///< 3D data that a render can collect (RenderOptions::layers)
+    std::uint64_t surfaceRender = 0;        ///< the newest render with layers that the server keeps, 0 if none
+    std::vector<CollectedLayer> collected;  ///< its layers
+    std::uint64_t maximumSurfaceBudget = 0; ///< bytes
 };
 
 /// A finished image: its pixels, and the id under which the server keeps it for verdicts.
@@ -49,6 +62,9 @@ struct Render {
     std::string integrator, sampler;
     double seconds = 0;          ///< the renderer's own time
     RenderedImage image;
+    std::vector<LayerDescription> layers;  ///< collected on surfaces meanwhile: Connection::surface fetches them
+    SurfaceCounts surfaceCounts;           ///< all 0 without layers
+    std::vector<std::uint64_t> layerSamples;  ///< values added to each of them; exact counts
 };
 
 /// Zero or empty: as the scene says.
@@ -58,6 +74,8 @@ struct RenderOptions {
     std::uint64_t seed = 0;
     bool hasSeed = false;
     bool preview = true;    ///< send tiles while rendering
+    std::vector<std::string> layers;  ///< 3D data to collect on surfaces, names out of ServerInfo::layers; empty: none
+    std::uint64_t surfaceBudget = 0;  ///< bytes for them; 0: the server's default
 };
 
 enum class VerdictAgainst : std::uint8_t { latestMatching = 0, renderId = 1, givenColors = 2, nothing = 3 };
@@ -131,7 +149,16 @@ class Connection {
     Result<Camera> camera();
     /// World space; large scenes arrive in chunks and are put together. Progress goes by triangles.
     Result<std::vector<Mesh>> meshes(const RequestObserver& observer = {});
+    /// Errors besides: invalidArgument (settings that the renderer cannot do, unknown layers), tooLarge (samples, budget).
     Result<Render> render(const RenderOptions& options = {}, const RequestObserver& observer = {});
+    /// Surface layers of a render that the server keeps (the newest ones that had layers). The field obeys all rules of
+    /// validate(), with meshes() of this connection if they came before, else with the triangle counts that the server
+    /// says.
+    /// \param renderId  0: the newest that has layers
+    /// \param layers    names; empty: all that were collected
+    /// Errors besides: invalidArgument (no such render or layer is kept), notSupported (the renderer has no layers).
+    Result<SurfaceField> surface(std::uint64_t renderId = 0, std::vector<std::string> layers = {},
+                                 const RequestObserver& observer = {});
     /// Errors besides: pixelOutOfRange, invalidArgument (samples), tooLarge.
     Result<Trace> tracePixel(Pixel pixel, const TraceOptions& options = {}, const RequestObserver& observer = {});
     Result<Trace> tracePixels(std::vector<Pixel> pixels, const TraceOptions& options = {}, const RequestObserver& observer = {});

@@ -25,7 +25,8 @@ struct ImageEntry {
 
 /// Parts of a Dataset, as bits, so that a view reloads only what changed.
 struct DatasetPart {
-    enum : std::uint32_t { info = 1, camera = 2, meshes = 4, images = 8, currentImage = 16, traces = 32, currentTrace = 64, pixels = 128 };
+    enum : std::uint32_t { info = 1, camera = 2, meshes = 4, images = 8, currentImage = 16, traces = 32, currentTrace = 64, pixels = 128,
+           surface = 256 };
 };
 
 /// Everything that was received, and nothing else: the one model beside Selection that all views read (brushing and
@@ -39,6 +40,7 @@ class Dataset {
     const std::optional<ServerInfo>& info() const { return info_; }
     const std::optional<Camera>& camera() const { return camera_; }
     std::shared_ptr<const std::vector<Mesh>> meshes() const { return meshes_; }  ///< null before they came
+    std::shared_ptr<const SurfaceField> surface() const { return surface_; }     ///< 3D data on `meshes`; null if none
     const std::vector<ImageEntry>& images() const { return images_; }
     const ImageEntry* currentImage() const;   ///< null if none
     std::size_t currentImageIndex() const { return currentImage_; }
@@ -56,6 +58,8 @@ class Dataset {
     void setInfo(std::optional<ServerInfo> info);
     void setCamera(std::optional<Camera> camera);
     void setMeshes(std::shared_ptr<const std::vector<Mesh>> meshes);
+    /// Replaces the layers that are there. Null: no layers.
+    void setSurface(std::shared_ptr<const SurfaceField> surface);
     std::size_t addImage(ImageEntry image);                   ///< becomes current; returns its index
     void replaceImage(std::size_t index, ImageEntry image);
     void setCurrentImage(std::size_t index);
@@ -64,7 +68,7 @@ class Dataset {
     void addTrace(std::shared_ptr<const Trace> trace);        ///< becomes the only current one
     /// Duplicates count once. Where two hold the same path, that of the later one is shown.
     void setCurrent(std::vector<std::shared_ptr<const Trace>> traces);
-    /// Forgets scene and traces, keeps info and images: another renderer was connected. The images lose their render
+    /// Forgets scene, surface layers and traces, keeps info and images: another renderer was connected. The images lose their render
     /// ids, which mean nothing to it; their colours can still be traced against.
     void clearScene();
 
@@ -89,6 +93,7 @@ class Dataset {
     std::optional<ServerInfo> info_;
     std::optional<Camera> camera_;
     std::shared_ptr<const std::vector<Mesh>> meshes_;
+    std::shared_ptr<const SurfaceField> surface_;
     std::vector<ImageEntry> images_;
     std::size_t currentImage_ = 0;
     std::vector<std::shared_ptr<const Trace>> traces_, current_;

@@ -137,5 +137,7 @@ struct SurfaceField {
 /// Every rule of a SurfaceField: one entry per mesh, offsets that follow each other, subdivisions that fit their meshes,
 /// arrays of the right length, unique names. Errors: protocolViolation, with the rule that is broken.
 Result<void> validate(const SurfaceField& field, std::span<const Mesh> meshes);
+/// The same for meshes of which only the numbers of triangles are known.
+Result<void> validate(const SurfaceField& field, std::span<const std::uint32_t> triangleCounts);
 
 }  // namespace emca

@@ -12,6 +12,7 @@
 #include "emca/core/replay.h"
 #include "emca/core/result.h"
 #include "emca/core/shared_array.h"
+#include "emca/core/surface_field.h"
 
 /// The messages of docs/protocol.md as values. Arrays of decoded messages look into the frame that they came in.
 namespace emca::protocol {
@@ -43,6 +44,14 @@ struct Progress {
 struct Failure { Error error; };
 struct Done {};
 
+/// A layer of 3D data on surfaces.
+struct Layer {
+    LayerDescription description;
+    std::uint64_t samples = 0;                       ///< where it has been collected: values added,
+    double total = 0;                                ///< and their sum
+    friend bool operator==(const Layer&, const Layer&) = default;
+};
+
 struct InfoRequest {};
 struct Info {
     std::string renderer, scene, integrator, sampler;
@@ -54,6 +63,10 @@ struct Info {
     std::uint64_t maximumBudget = 0;
     std::vector<std::string> capabilities, tools;
     std::uint64_t latestRender = 0;                  ///< 0 if none
+    std::vector<Layer> layers;                       ///< that the renderer can collect
+    std::uint64_t surfaceRender = 0;                 ///< the newest render with layers that is kept; 0 if none
+    std::vector<Layer> collected;                    ///< its layers
+    std::uint64_t maximumSurfaceBudget = 0;
 };
 
 struct CameraRequest {};
@@ -89,6 +102,8 @@ struct RenderRequest {
     Settings settings;
     bool preview = false;
     std::uint32_t maximumChunkBytes = 0;
+    std::vector<std::string> layers;                 ///< to collect meanwhile, by name
+    std::uint64_t surfaceBudget = 0;                 ///< bytes; 0: the server's default
 };
 struct PreviewTile {
     PixelRect rect;
@@ -100,6 +115,8 @@ struct RenderResult {
     Settings settings;                               ///< complete
     double seconds = 0;
     std::uint32_t width = 0, height = 0;
+    std::vector<Layer> layers;                       ///< that were collected; a SurfaceRequest fetches them
+    SurfaceCounts surfaceCounts;
 };
 struct ImageRows {
     std::uint32_t firstRow = 0, rowCount = 0;
@@ -132,10 +149,43 @@ struct TraceResult {
     PathSet paths;
 };
 
-struct SurfaceRequest {                              ///< reserved: answered with notSupported in version 1
-    std::vector<std::string> layers;
-    Settings settings;
-    std::uint64_t budget = 0;
+/// Layers of a render that is kept.
+struct SurfaceRequest {
+    std::vector<std::string> layers;                 ///< by name; empty: all that were collected
+    Settings settings;                               ///< without a render id: the newest render with these, 0 or empty: any
+    std::uint64_t budget = 0;                        ///< reserved
+    std::uint64_t renderId = 0;                      ///< 0: the newest that has layers
+    std::uint32_t maximumChunkBytes = 0;
+};
+/// Announces the layers of a render; SurfaceChunks follow.
+struct SurfaceResult {
+    std::uint64_t renderId = 0;
+    std::vector<Layer> layers;
+    SurfaceCounts counts;
+    std::uint32_t meshCount = 0;
+    std::uint64_t faceCount = 0;                     ///< refined faces of all meshes
+    std::uint64_t topologyBytes = 0;                 ///< of the subdivisions of all meshes
+};
+/// Some of the subdivision of one mesh (SurfaceSubdivision::bits). Meshes come in order, at least one part of each.
+struct SurfaceMeshPart {
+    std::uint32_t mesh = 0;
+    std::uint32_t triangleCount = 0;                 ///< of the mesh as the scene has it
+    std::uint32_t faceCount = 0;                     ///< refined; 0: the mesh has no values
+    std::uint32_t byteCount = 0;                     ///< of the whole subdivision
+    std::uint32_t firstByte = 0;                     ///< of this part
+    SharedArray<std::uint8_t> bits;
+};
+/// Some values of array 0, the points per face, or array i + 1, the values of layer i.
+struct SurfaceArrayPart {
+    std::uint32_t array = 0;
+    std::uint64_t first = 0;                         ///< counted in floats
+    SharedArray<float> values;
+};
+/// All meshes come before the first array, arrays in order, each from its begin to its end.
+struct SurfaceChunk {
+    std::vector<SurfaceMeshPart> meshes;
+    std::vector<SurfaceArrayPart> arrays;
+    bool last = false;
 };
 
 struct ToolRequest {
@@ -152,7 +202,7 @@ struct Unknown { std::uint8_t kind = 0; };
 using Body = std::variant<Hello, Welcome, Refusal, Cancel, Progress, Failure, Done, InfoRequest, Info, CameraRequest,
                           Camera, SceneRequest, SceneChunk, RenderRequest, PreviewTile, RenderResult, ImageRows,
                           TraceRequest, TraceResult, SurfaceRequest, ToolRequest, ToolResult, QuitRequest,
-                          Unknown>;
+                          SurfaceResult, SurfaceChunk, Unknown>;
 
 struct Message {
     std::uint64_t request = 0;                       ///< chosen by the client, not 0; the handshake has 0

@@ -9,10 +9,12 @@
 #include "emca/core/mesh.h"
 #include "emca/core/pixel.h"
 #include "emca/core/result.h"
+#include "emca/core/surface_field.h"
 
 namespace emca {
 
 class Recording;
+class SurfaceRecorder;
 
 /// What a renderer says about itself.
 struct RendererInfo {
@@ -27,7 +29,7 @@ struct RendererInfo {
     bool concurrent = false;
     /// The same settings give the same bits, so that a replay can be exact.
     bool deterministic = true;
-    std::vector<std::string> capabilities;  ///< further words, e.g. "surface-layers"; the server adds its own
+    std::vector<std::string> capabilities;  ///< further words, e.g. "denoiser"; the server adds its own
 };
 
 /// What to render with. Zero or empty: as the scene says.
@@ -64,12 +66,25 @@ class Renderer {
     /// Called once, when the server starts: what it says must stay true.
     virtual RendererInfo info() const = 0;
     virtual Camera camera() const = 0;
-    /// World space. Its order gives the mesh indices of setIntersectionSurface. Called once per client that asks.
+    /// World space. Its order gives the mesh indices of setIntersectionSurface. Called once per client that asks, and once
+    /// for surface layers.
     virtual std::vector<Mesh> meshes() const = 0;
 
     /// Renders the whole image. Nothing is recorded meanwhile.
     /// Errors: invalidArgument (settings it cannot do), cancelled, rendererFailed.
     virtual Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) = 0;
+
+    /// The 3D data that it can collect on surfaces while it renders an image, if asked for. Called once, when the server
+    /// starts: names and kinds must stay true.
+    virtual std::vector<LayerDescription> surfaceLayers() const { return {}; }
+
+    /// renderImage while layers are collected: the same bits. Called instead of it if a client asks for at least one layer
+    /// of surfaceLayers(); those that it asks for are in `surface`, where surface.find(name) gives the handle, an inert
+    /// one for the others. The renderer may add layers of its own before its threads call surface.cursor(). Mesh indices
+    /// are those of meshes(). All threads that add must be done when it returns. Errors besides: notSupported (the
+    /// default).
+    virtual Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                        RequestMonitor& monitor);
 
     /// Renders one pixel again with the same settings, bit by bit as renderImage does, and returns the pixel as its
     /// film code computes it. The calling thread is already inside a RecordScope of `recording`; threads that the

@@ -22,6 +22,9 @@ struct ServerOptions {
     std::uint32_t maximumPixelsPerTrace = 1u << 16;
     std::size_t defaultBudget = 256u << 20;   ///< bytes of one recording where the client does not say
     std::size_t maximumBudget = 1u << 30;
+    std::size_t surfaceBudget = 256u << 20;   ///< bytes of one collection of surface layers where the client does not say
+    std::size_t maximumSurfaceBudget = std::size_t(4) << 30;
+    std::uint32_t keptSurfaces = 2;           ///< collections kept, those of the newest renders with layers; at least 1
     std::uint32_t keptImages = 4;             ///< finished renders kept for verdicts; older ones are forgotten
     std::chrono::milliseconds handshakeTimeout{10000};  ///< a stranger that stays silent for so long is sent away
     bool allowQuit = false;                   ///< whether a client's quit request ends the server
