@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace emca::render {
@@ -58,7 +59,7 @@ ImageRenderer::ImageRenderer(std::shared_ptr<const Scene> scene, int threads)
     : scene_(std::move(scene)), threads_(threads > 0 ? threads : tbb::info::default_concurrency()) {}
 
 Color ImageRenderer::samplePixel(Pixel pixel, std::uint32_t index, Sampler& sampler, const PathIntegrator& integrator,
-                                 emca::PathRecorder& emca) const {
+                                 emca::PathRecorder& emca, SurfaceTally* surface) const {
     sampler.start(pixel, index);
     const Vec2f uFilm = sampler.next2D();
     const Vec2f uLens = scene_->camera().hasLens() ? sampler.next2D() : Vec2f{0.5f, 0.5f};
@@ -71,11 +72,12 @@ Color ImageRenderer::samplePixel(Pixel pixel, std::uint32_t index, Sampler& samp
     emca.addPathData("random numbers (pixel)", uFilm);
     if (scene_->camera().hasLens()) emca.addPathData("random numbers (lens)", uLens);
     emca.addPathData("film position", film);
-    return integrator.radiance(ray, sampler, emca);
+    return integrator.radiance(ray, sampler, emca, surface);
 }
 
 ImageRenderer::PixelEstimate ImageRenderer::estimatePixel(Pixel pixel, const RenderOptions& options,
-                                                          const RenderCallbacks& callbacks) const {
+                                                          const RenderCallbacks& callbacks,
+                                                          SurfaceTally* surface) const {
     const PathIntegrator integrator(*scene_, options.integrator);
     Sampler sampler(options.sampler, options.seed);
     emca::PathRecorder& emca = emca::recorder();
@@ -88,7 +90,7 @@ ImageRenderer::PixelEstimate ImageRenderer::estimatePixel(Pixel pixel, const Ren
             incomplete.complete = false;
             return incomplete;
         }
-        const Color radiance = samplePixel(pixel, index, sampler, integrator, emca);
+        const Color radiance = samplePixel(pixel, index, sampler, integrator, emca, surface);
         red.add(radiance.r), green.add(radiance.g), blue.add(radiance.b);
     }
     emca.endPath();
@@ -99,13 +101,13 @@ ImageRenderer::PixelEstimate ImageRenderer::estimatePixel(Pixel pixel, const Ren
 }
 
 bool ImageRenderer::renderTile(PixelRect tile, const RenderOptions& options, const RenderCallbacks& callbacks,
-                               RenderedImage& image) const {
+                               SurfaceTally* surface, RenderedImage& image) const {
     std::vector<Color> colors;
     if (callbacks.tileDone) colors.reserve(tile.count());
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             if (callbacks.cancelled && callbacks.cancelled()) return false;
-            const PixelEstimate estimate = estimatePixel({x, y}, options, callbacks);
+            const PixelEstimate estimate = estimatePixel({x, y}, options, callbacks, surface);
             if (!estimate.complete) return false;
             image.color.setColor({x, y}, estimate.mean);
             image.variance.setColor({x, y}, estimate.variance);
@@ -117,7 +119,8 @@ bool ImageRenderer::renderTile(PixelRect tile, const RenderOptions& options, con
     return true;
 }
 
-Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, const RenderCallbacks& callbacks) const {
+Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, const RenderCallbacks& callbacks,
+                                                 SurfaceRecorder* surface) const {
     if (auto checked = check(options); !checked) return checked.error();
     const std::uint32_t width = scene_->width(), height = scene_->height();
     RenderedImage image{Image(width, height), Image(width, height, {"samples"}), Image(width, height)};
@@ -125,6 +128,7 @@ Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, c
     const std::uint32_t tiles = columns * rows;
     std::atomic<std::uint32_t> done = 0;
     std::atomic<bool> stop = false;
+    const std::optional<SurfaceLayers> layers = surface ? std::optional<SurfaceLayers>(*surface) : std::nullopt;
 
     tbb::task_arena arena(threads_);
     arena.execute([&] {
@@ -132,7 +136,9 @@ Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, c
             for (std::uint32_t i = range.begin(); i < range.end() && !stop; ++i) {
                 const std::uint32_t x = i % columns * kTileSize, y = i / columns * kTileSize;
                 const PixelRect tile{x, y, std::min(x + kTileSize, width), std::min(y + kTileSize, height)};
-                if (!renderTile(tile, options, callbacks, image)) stop = true;
+                std::optional<SurfaceTally> tally;
+                if (layers) tally.emplace(*layers);
+                if (!renderTile(tile, options, callbacks, tally ? &*tally : nullptr, image)) stop = true;
                 const std::uint32_t finished = ++done;
                 if (callbacks.progress && !stop) callbacks.progress(double(finished) / tiles);
             }
@@ -152,7 +158,7 @@ Result<Color> ImageRenderer::renderPixel(Pixel pixel, const RenderOptions& optio
                          "): the image has " + std::to_string(scene_->width()) + " x " +
                          std::to_string(scene_->height()) + " pixels."};
     }
-    const PixelEstimate estimate = estimatePixel(pixel, options, callbacks);
+    const PixelEstimate estimate = estimatePixel(pixel, options, callbacks, nullptr);
     if (!estimate.complete) return cancelledError();
     return estimate.mean;
 }

@@ -28,6 +28,7 @@ void buildIntegrator(const SceneNode& integrator, SceneBuilding& building) {
     settings.rouletteDepth = std::max(depth("rr_depth", 5), 0);
     settings.strictNormals = read.flag("strict_normals", false);
     settings.hideEmitters = read.flag("hide_emitters", false);
+    settings.reuseTriangleSample = read.flag("reuse_triangle_sample", false);
     const std::string& type = read.type();
     if (!setIntegratorType(type, settings)) {
         read.report(read.description() + " is replaced by path: path and direct are known.");

@@ -26,7 +26,7 @@ float powerHeuristic(float pdf, float otherPdf) {
 
 }  // namespace
 
-Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& emca) const {
+Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& emca, SurfaceTally* surface) const {
     Color estimate(0.f), throughput(1.f);
     float eta = 1.f;  // product of relative indices of refraction: roulette must not see radiance squeezed inside glass
     Arrival arrival{ray.origin};
@@ -34,12 +34,14 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
     const char* end = "";
 
     // A vertex is where the path meets a surface. A mask that lets the path through is a vertex, but no segment more.
-    for (int vertex = 1, depth = 1;; ++vertex) {
+    int vertex = 1;
+    for (int depth = 1;; ++vertex) {
         const std::uint32_t dimension = kFirstDimension + static_cast<std::uint32_t>(vertex - 1) * kDimensionsPerVertex;
 
         if (!scene_.intersect(ray, at)) {
             emca.setDepthIndex(vertex);
-            estimate += environmentLight(ray, arrival, throughput, emca);
+            if (surface) surface->background();
+            estimate += environmentLight(ray, arrival, throughput, emca, surface);
             emca.setIntersectionEstimate(estimate);
             emca.addPathData("left scene", true);
             end = "left the scene";
@@ -51,6 +53,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
         emca.addIntersectionData("shape", [&] { return std::string_view(at.shape->name); });
         emca.addIntersectionData("material", [&] { return std::string_view(at.bsdf->name()); });
         emca.addIntersectionData("throughput", throughput);
+        if (surface) surface->intersection(at, throughput);
 
         if (at.shape->masked) {
             sampler.setDimension(dimension + kMask);
@@ -59,6 +62,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
             if (u >= opacity && vertex < kLargestVertex) {
                 emca.setIntersectionEvent(Event::pass, Lobe::straight, at.bsdf->name());
                 emca.setIntersectionEstimate(estimate);
+                if (surface) surface->scattered(Color(1.f));
                 ray.origin = offsetOrigin(at.position, at.geometricNormal, at.positionError, ray.direction);
                 ray.minimumDistance = 0.f;
                 ray.maximumDistance -= at.distance;
@@ -66,7 +70,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
             }
         }
 
-        estimate += emittedLight(at, ray, arrival, throughput, emca);
+        estimate += emittedLight(at, ray, arrival, throughput, emca, surface);
         if (depth == settings_.maximumDepth || vertex == kLargestVertex) {
             emca.setIntersectionEvent(at.emitter ? Event::emission : Event::absorb, Lobe::none, at.bsdf->name());
             emca.setIntersectionEstimate(estimate);
@@ -75,7 +79,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
         }
 
         sampler.setDimension(dimension + kLightChoice);
-        estimate += sampledLight(at, throughput, sampler, emca);
+        estimate += sampledLight(at, throughput, sampler, emca, surface);
         emca.setIntersectionEstimate(estimate);
 
         sampler.setDimension(dimension + kLobe);
@@ -87,6 +91,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
         const Vec3f direction = scattered ? at.toWorld(scattered->wi) : Vec3f{};
         if (!scattered || isBlack(scattered->weight) || violatesStrictNormals(at, direction, scattered->wi)) {
             emca.setIntersectionEvent(at.emitter ? Event::emission : Event::absorb, Lobe::none, at.bsdf->name());
+            if (surface) surface->invalidDirection();
             end = "absorbed";
             break;
         }
@@ -96,30 +101,34 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
         throughput *= scattered->weight;
         eta *= scattered->eta;
 
+        float survival = 1.f;
         if (depth >= settings_.rouletteDepth) {
-            const float survival = std::min(maxComponent(throughput) * eta * eta, kLargestSurvival);
+            survival = std::min(maxComponent(throughput) * eta * eta, kLargestSurvival);
             sampler.setDimension(dimension + kRoulette);
             const float u = sampler.next1D();
             emca.addIntersectionData("roulette survival probability", survival);
             emca.addIntersectionData("random number (roulette)", u);
             if (u >= survival) {
+                if (surface) surface->rouletteEnd();
                 end = "Russian roulette";
                 break;
             }
             throughput /= survival;
         }
+        if (surface) surface->scattered(scattered->weight / survival);
 
         arrival = {at.position, scattered->pdf, false, scattered->isDelta()};
         ray = {offsetOrigin(at.position, at.geometricNormal, at.positionError, direction), direction};
         ++depth;
     }
+    if (surface) surface->end(vertex);
     emca.addPathData("end", std::string_view(end));
     emca.setFinalEstimate(estimate);
     return estimate;
 }
 
 Color PathIntegrator::emittedLight(const SurfaceInteraction& at, const Ray& ray, const Arrival& arrival,
-                                   Color throughput, emca::PathRecorder& emca) const {
+                                   Color throughput, emca::PathRecorder& emca, SurfaceTally* surface) const {
     if (!at.emitter || (arrival.direct && settings_.hideEmitters)) return Color(0.f);
     const Color emission = at.emitter->emitted(at, -ray.direction);
     emca.setIntersectionEmission(emission);
@@ -133,6 +142,7 @@ Color PathIntegrator::emittedLight(const SurfaceInteraction& at, const Ray& ray,
     }
     const float weight = hitWeight(arrival, lightPdf);
     const Color contribution = throughput * emission * weight;
+    if (surface) surface->hit(emission * weight);
     emca.addIntersectionData("MIS weight (hit)", weight);
     emca.addIntersectionData("light (hit)", [&] { return std::string_view(at.emitter->name); });
     emca.addContribution(contribution, arrival.direct ? "emitter hit" : "BSDF sampling", weight, LightEnd::hit);
@@ -140,7 +150,7 @@ Color PathIntegrator::emittedLight(const SurfaceInteraction& at, const Ray& ray,
 }
 
 Color PathIntegrator::environmentLight(const Ray& ray, const Arrival& arrival, Color throughput,
-                                       emca::PathRecorder& emca) const {
+                                       emca::PathRecorder& emca, SurfaceTally* surface) const {
     // The viewer draws the hit outside of everything, where the ray is surely on its way out.
     emca.setIntersectionPosEnvmap([&] { return ray.at(length(ray.origin - scene_.center()) + 2.f * scene_.radius()); });
     emca.setIntersectionEvent(Event::background);
@@ -158,6 +168,7 @@ Color PathIntegrator::environmentLight(const Ray& ray, const Arrival& arrival, C
     }
     const float weight = hitWeight(arrival, lightPdf);
     const Color contribution = throughput * emission * weight;
+    if (surface) surface->hit(emission * weight);
     emca.addIntersectionData("MIS weight (hit)", weight);
     emca.addIntersectionData("light (hit)", [&] { return std::string_view(environment->name); });
     emca.addContribution(contribution, arrival.direct ? "emitter hit" : "BSDF sampling", weight, LightEnd::hit);
@@ -165,7 +176,7 @@ Color PathIntegrator::environmentLight(const Ray& ray, const Arrival& arrival, C
 }
 
 Color PathIntegrator::sampledLight(const SurfaceInteraction& at, Color throughput, Sampler& sampler,
-                                   emca::PathRecorder& emca) const {
+                                   emca::PathRecorder& emca, SurfaceTally* surface) const {
     if (at.bsdf->isDelta()) return Color(0.f);
     const float uChoice = sampler.next1D();
     const Vec2f uPoint = sampler.next2D();
@@ -179,6 +190,7 @@ Color PathIntegrator::sampledLight(const SurfaceInteraction& at, Color throughpu
     const auto light = choice.emitter->sample(at.position, uPoint);
     emca.addIntersectionData("light", [&] { return std::string_view(choice.emitter->name); });
     if (!light || isBlack(light->radiance)) return Color(0.f);
+    if (surface) surface->nextEvent(*light);
     const float lightPdf = choice.probability * light->pdf;
     const Vec3f wi = at.toLocal(light->direction);
     const Bsdf::EvalPdf bsdf = at.bsdf->evalPdf(at, at.wo, wi);
@@ -186,11 +198,13 @@ Color PathIntegrator::sampledLight(const SurfaceInteraction& at, Color throughpu
     emca.addIntersectionData("BSDF pdf (light)", bsdf.pdf);
     if (isBlack(bsdf.value) || violatesStrictNormals(at, light->direction, wi)) return Color(0.f);
 
+    const bool combined = settings_.strategy == LightStrategy::mis && !delta;
+    if (surface) surface->misWeight(combined ? powerHeuristic(lightPdf, bsdf.pdf) : 1.f);
     const float visible = scene_.transmittance(at, *light);
     emca.setNextEventEstimationPos(light->position, visible > 0.f);
     if (visible == 0.f) return Color(0.f);
-    const bool combined = settings_.strategy == LightStrategy::mis && !delta;
     const float weight = combined ? powerHeuristic(lightPdf, bsdf.pdf) : 1.f;
+    if (surface) surface->direct(bsdf.value * light->radiance * (visible * weight / lightPdf));
     const Color contribution = throughput * bsdf.value * light->radiance * (visible * weight / lightPdf);
     emca.addIntersectionData("MIS weight (light)", weight);
     emca.addContribution(contribution, "light sampling", weight, LightEnd::connected);

@@ -58,7 +58,8 @@ Result<void> Scene::build() {
     rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
     for (std::size_t i = 0; i < parts_.shapes.size(); ++i) {
-        const Shape& shape = *parts_.shapes[i];
+        Shape& shape = *parts_.shapes[i];
+        shape.index = static_cast<std::int32_t>(i);
         hasMasks_ |= shape.masked;
         RTCGeometry geometry = shape.makeGeometry(embree_->device);
         rtcCommitGeometry(geometry);

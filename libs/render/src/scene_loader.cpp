@@ -63,15 +63,16 @@ void prepareImages(const SceneNode& node, std::set<const SceneNode*>& seen) {
 }
 
 void buildParts(const SceneNode& root, SceneBuilding& building) {
-    bool hasIntegrator = false;
+    // The first integrator counts, and before the shapes: it may say how lights choose their points.
+    for (const SceneNode::Child& child : root.children) {
+        if (child.node->kind != "integrator") continue;
+        buildIntegrator(*child.node, building);
+        break;
+    }
     for (const SceneNode::Child& child : root.children) {
         const SceneNode& node = *child.node;
         if (node.kind == "shape") buildShape(node, building);
         if (node.kind == "emitter") buildEmitter(node, building);
-        if (node.kind == "integrator" && !hasIntegrator) {
-            hasIntegrator = true;
-            buildIntegrator(node, building);
-        }
         // Materials, textures and media that stand alone are there to be referred to.
     }
 }

@@ -41,13 +41,14 @@ std::unique_ptr<Emitter> readAreaEmitter(const SceneNode& node, const Shape& sha
     return emitter;
 }
 
-std::unique_ptr<Shape> makeShape(ShapeGeometry geometry, bool emits) {
+std::unique_ptr<Shape> makeShape(ShapeGeometry geometry, bool emits, const IntegratorSettings& integrator) {
     if (geometry.sphere) {
         return std::make_unique<SphereShape>(*geometry.sphere, std::move(geometry.mesh), geometry.flipped);
     }
     if (geometry.disk) return std::make_unique<DiskShape>(*geometry.disk, std::move(geometry.mesh), geometry.flipped);
     auto mesh = std::make_unique<MeshShape>(std::move(geometry.mesh));
     if (emits) mesh->prepareSampling();
+    if (integrator.reuseTriangleSample) mesh->reuseTriangleSample();
     return mesh;
 }
 
@@ -66,7 +67,7 @@ void buildShape(const SceneNode& node, SceneBuilding& building) {
         read.report(read.description() + " has no triangles and is left out.");
         return;
     }
-    std::unique_ptr<Shape> shape = makeShape(std::move(*geometry), emitterNode != nullptr);
+    std::unique_ptr<Shape> shape = makeShape(std::move(*geometry), emitterNode != nullptr, building.parts.integrator);
     shape->name = node.id.empty() ? node.type : node.id;
     shape->bsdf = bsdfNode ? makeBsdf(*bsdfNode, building.factories) : defaultBsdf();
     shape->masked = bsdfNode && containsMask(*bsdfNode);

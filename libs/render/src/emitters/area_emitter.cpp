@@ -18,6 +18,9 @@ std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
     sample.distance = point->distance;
     sample.radiance = constant_ ? mean_ : radiance_->eval(point->uv);
     sample.pdf = point->pdf;
+    sample.shape = &shape_;
+    sample.face = point->face;
+    sample.barycentrics = point->barycentrics;
     return light;
 }
 

@@ -65,6 +65,13 @@ void DiskShape::interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& 
     const float angle = std::atan2(y, x) * (0.5f * kInvPi);
     at.uv = {std::sqrt(x * x + y * y), angle < 0.f ? angle + 1.f : angle};
     at.face = diskFace(at.uv.y);
+    at.barycentrics = kNoBarycentrics;
+}
+
+std::int32_t DiskShape::faceAt(Vec3f position) const {
+    const Vec2d p = planeCoordinates(widen(position));
+    const double turn = std::atan2(p.y, p.x) * (0.5 * double(kInvPi));
+    return diskFace(static_cast<float>(turn < 0 ? turn + 1 : turn));
 }
 
 std::optional<ShapeSample> DiskShape::sample(Vec3f from, Vec2f u) const {

@@ -17,6 +17,7 @@ class DiskShape final : public Shape {
     float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
+    std::int32_t faceAt(Vec3f position) const override;
     std::uint64_t triangleCount() const override { return tessellation_.triangles.size(); }
 
     /// Distance along the ray in (nearest, farthest), or nothing.

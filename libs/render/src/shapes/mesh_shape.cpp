@@ -52,6 +52,7 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
     at.geometricNormal = face.normal;
     at.positionError = face.positionError;
     at.face = static_cast<std::int32_t>(hit.primitive);
+    at.barycentrics = {hit.u, hit.v};
 
     Vec3f normal = face.normal;
     const Triangle& t = mesh_.triangles[hit.primitive];
@@ -67,11 +68,11 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
 
 std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
     assert(triangles_.size() > 0);
-    // The triangle takes what it needs of u.x and the point gets the remainder: using u.x twice as it is would correlate
-    // triangle and point (the bug of the paper's Figure 9).
+    // The triangle takes what it needs of u.x and the point gets the remainder: using u.x twice as it is correlates
+    // triangle and point.
     const Distribution1D::Choice chosen = triangles_.sample(u.x);
     const Face& face = faces_[chosen.index];
-    const Vec2f bary = squareToUniformTriangle({chosen.remainder, u.y});
+    const Vec2f bary = squareToUniformTriangle({reusesTriangleSample_ ? u.x : chosen.remainder, u.y});
 
     std::optional<ShapeSample> result;  // returned everywhere, so that it is made in place
     ShapeSample& sample = result.emplace();
@@ -79,6 +80,8 @@ std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
     sample.normal = face.normal;
     sample.positionError = face.positionError;
     sample.uv = bary;
+    sample.face = static_cast<std::int32_t>(chosen.index);
+    sample.barycentrics = bary;
     if (!mesh_.uvs.empty()) {
         const Triangle& t = mesh_.triangles[chosen.index];
         sample.uv = mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;

@@ -23,6 +23,9 @@ class MeshShape final : public Shape {
 
     /// sample() needs to know the areas; only lights pay for that. Before the shape joins a scene.
     void prepareSampling();
+    /// Builds in the error of the paper's Figure 9, for those who want to find it: one random number chooses both the
+    /// triangle and the point on it, so that parts of the triangles are never sampled. Before the shape joins a scene.
+    void reuseTriangleSample() { reusesTriangleSample_ = true; }
 
   private:
     /// What every hit needs of a triangle, in one cache line.
@@ -37,6 +40,7 @@ class MeshShape final : public Shape {
     std::vector<Face> faces_;   ///< one per triangle
     Distribution1D triangles_;  ///< by area; empty before prepareSampling()
     float area_ = 0;
+    bool reusesTriangleSample_ = false;
 };
 
 }  // namespace emca::render

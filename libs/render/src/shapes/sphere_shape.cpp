@@ -54,11 +54,16 @@ void SphereShape::interact(const Ray& ray, const RayHit& hit, SurfaceInteraction
     const Vec3f local = normalize(toObject_.vector(narrow(normal)));
     at.uv = uvOf(local);
     at.face = sphereFace(local);
+    at.barycentrics = kNoBarycentrics;
 }
 
 Vec2f SphereShape::uvOf(Vec3f local) const {
     const float azimuth = std::atan2(local.y, local.x) * (0.5f * kInvPi);
     return {azimuth < 0.f ? azimuth + 1.f : azimuth, std::acos(std::clamp(local.z, -1.f, 1.f)) * kInvPi};
+}
+
+std::int32_t SphereShape::faceAt(Vec3f position) const {
+    return sphereFace(normalize(toObject_.vector(narrow(normalize(widen(position) - center_)))));
 }
 
 float SphereShape::area() const { return static_cast<float>(4 * kPiDouble * radius_ * radius_); }

@@ -16,6 +16,9 @@ struct EmitterSample {
     float distance = 0;  ///< to `position`, scene units
     Color radiance;      ///< towards the lit point, before occlusion; of delta lights irradiance on a plane facing them
     float pdf = 0;       ///< per steradian, without the choice among lights; 1 for delta lights
+    const Shape* shape = nullptr;          ///< of area lights: what shines
+    std::int32_t face = -1;                ///< as ShapeSample's
+    Vec2f barycentrics = kNoBarycentrics;  ///< as ShapeSample's
 };
 
 /// Source of light. Immutable once it is part of a scene; safe from all threads.

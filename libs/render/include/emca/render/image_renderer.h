@@ -42,7 +42,10 @@ class ImageRenderer {
     explicit ImageRenderer(std::shared_ptr<const Scene> scene, int threads = 0);
 
     /// Errors: invalidArgument (samples per pixel 0), tooLarge (beyond kMaximumSamplesPerPixel), cancelled.
-    Result<RenderedImage> renderImage(const RenderOptions& options, const RenderCallbacks& callbacks = {}) const;
+    /// \param surface  collects 3D data on surfaces meanwhile, over the meshes of scene(); null: none. The image is the
+    ///                 same, bit by bit.
+    Result<RenderedImage> renderImage(const RenderOptions& options, const RenderCallbacks& callbacks = {},
+                                      SurfaceRecorder* surface = nullptr) const;
 
     /// The same pixel again, bit by bit, in the calling thread; if that is inside a RecordScope, its paths are recorded.
     /// Errors: as renderImage, and pixelOutOfRange.
@@ -58,12 +61,13 @@ class ImageRenderer {
         Color variance;  ///< unbiased, of the samples
         bool complete = true;
     };
-    PixelEstimate estimatePixel(Pixel pixel, const RenderOptions& options, const RenderCallbacks& callbacks) const;
+    PixelEstimate estimatePixel(Pixel pixel, const RenderOptions& options, const RenderCallbacks& callbacks,
+                                SurfaceTally* surface) const;
     Color samplePixel(Pixel pixel, std::uint32_t index, Sampler& sampler, const PathIntegrator& integrator,
-                      emca::PathRecorder& emca) const;
+                      emca::PathRecorder& emca, SurfaceTally* surface) const;
     /// \return false if cancelled
     bool renderTile(PixelRect tile, const RenderOptions& options, const RenderCallbacks& callbacks,
-                    RenderedImage& image) const;
+                    SurfaceTally* surface, RenderedImage& image) const;
 
     std::shared_ptr<const Scene> scene_;
     int threads_;

@@ -18,6 +18,9 @@ struct IntegratorSettings {
     bool strictNormals = false;  ///< no light where geometric and shading normal disagree about the side
     bool hideEmitters = false;   ///< emitters are not seen directly
     LightStrategy strategy = LightStrategy::mis;
+    /// An error to be found, built in on purpose (paper, Figure 9): lights that are meshes choose a triangle and the point
+    /// on it with the same random number. Takes effect when a scene is built.
+    bool reuseTriangleSample = false;
     friend bool operator==(const IntegratorSettings&, const IntegratorSettings&) = default;
 };
 

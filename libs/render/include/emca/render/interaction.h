@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "emca/core/vector.h"
 #include "emca/render/frame.h"
 
 namespace emca::render {
+
+/// Barycentric coordinates of a point that was not found on a triangle.
+inline constexpr Vec2f kNoBarycentrics{std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};
 
 class Shape;
 class Bsdf;
@@ -22,6 +26,7 @@ struct SurfaceInteraction {
     float positionError = 0; ///< bound on how far rounding put `position` off the surface: offsetOrigin() needs it
     std::int32_t mesh = -1;  ///< index into Scene::meshes(), as the explorer sees it
     std::int32_t face = -1;  ///< triangle of that mesh (analytic shapes: of their tessellation)
+    Vec2f barycentrics = kNoBarycentrics;  ///< weights of that triangle's second and third vertex; NaN on analytic shapes
     const Shape* shape = nullptr;
     const Bsdf* bsdf = nullptr;        ///< never null after Scene::intersect
     const Emitter* emitter = nullptr;  ///< area light on this surface, if any

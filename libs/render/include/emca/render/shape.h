@@ -33,6 +33,8 @@ struct ShapeSample {
     float positionError = 0;    ///< as SurfaceInteraction's
     Vec2f uv;
     float pdf = 0;              ///< per steradian as seen from the place that asked
+    std::int32_t face = -1;     ///< triangle of a mesh; -1 on analytic shapes: Shape::faceAt() knows
+    Vec2f barycentrics = kNoBarycentrics;  ///< as SurfaceInteraction's
 };
 
 /// Completes a sample whose points are chosen with equal density on all of a surface.
@@ -52,7 +54,7 @@ class Shape {
   public:
     virtual ~Shape() = default;
 
-    /// Fills in position, normals, frame, uv, face and positionError; leaves the rest alone.
+    /// Fills in position, normals, frame, uv, face, barycentrics and positionError; leaves the rest alone.
     virtual void interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& at) const = 0;
     virtual float area() const = 0;  ///< square scene units
     /// Chooses a point to be lit by, as seen from `from`. Nothing if all of it is seen edge-on or has no area.
@@ -66,11 +68,15 @@ class Shape {
     /// Triangles for the explorer; `face` of interact() counts these. World space.
     virtual emca::Mesh displayMesh() const = 0;
     virtual std::uint64_t triangleCount() const = 0;  ///< of displayMesh()
+    /// Of analytic shapes: the triangle of displayMesh() that stands for a point of the surface. -1: a mesh, whose points
+    /// come with their face.
+    virtual std::int32_t faceAt(Vec3f /*position*/) const { return -1; }
 
     std::string name;                          ///< id in the scene file, else the plugin's type
     std::shared_ptr<const Bsdf> bsdf;          ///< never null in a scene
     const Emitter* emitter = nullptr;          ///< area light on this shape; owned by the scene
     bool masked = false;                       ///< the BSDF's opacity may be below 1
+    std::int32_t index = -1;                   ///< place in Scene::shapes(): the mesh index of interactions
 };
 
 /// Relative rounding error of a hit point: 2^-18 of the largest coordinate involved, 64 units in the last place.
