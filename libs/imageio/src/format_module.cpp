@@ -1,11 +1,13 @@
 #include "format_module.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
-#include <array>
+#include <cstddef>
 #include <future>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "emca/imageio/imageio.h"
 #include "lower_case.h"
@@ -22,32 +24,44 @@ Error unavailable(const std::string& why) {
                                          ", which cannot be loaded (" + why + "); install EMCA as a whole"};
 }
 
-/// Folder of the program or library that this code was linked into.
-fs::path ownFolder() {
-    Dl_info info{};
-    std::error_code code;
-    if (dladdr(reinterpret_cast<const void*>(&formatModule), &info) == 0 || !info.dli_fname) return {};
-    // A program's own name is as it was called; the kernel knows where it is.
-    if (const fs::path called = info.dli_fname; called.is_absolute()) return called.parent_path();
-    return fs::read_symlink("/proc/self/exe", code).parent_path();
+/// Where the dynamic linker looks for libraries of the object that this code was linked into: its RUNPATH above all.
+/// Not left to dlopen(), which sanitizers take over and then call on behalf of themselves.
+void addLinkerFolders(link_map* object, std::vector<fs::path>& folders) {
+    Dl_serinfo size{};
+    if (dlinfo(object, RTLD_DI_SERINFOSIZE, &size) != 0) return;
+    std::vector<std::max_align_t> memory(size.dls_size / sizeof(std::max_align_t) + 1);
+    auto* const list = reinterpret_cast<Dl_serinfo*>(memory.data());
+    if (dlinfo(object, RTLD_DI_SERINFOSIZE, list) != 0 || dlinfo(object, RTLD_DI_SERINFO, list) != 0) return;
+    const Dl_serpath* const first = list->dls_serpath;
+    for (unsigned i = 0; i < list->dls_cnt; ++i) folders.emplace_back(first[i].dls_name);
 }
 
-/// First where the linker's paths lead (RUNPATH of the program), then beside the program, then as in an installation.
+/// First where the linker's paths lead, then beside the program, then as in an installation.
+std::vector<fs::path> searchFolders() {
+    std::vector<fs::path> folders;
+    Dl_info info{};
+    void* object = nullptr;
+    if (dladdr1(reinterpret_cast<const void*>(&formatModule), &info, &object, RTLD_DL_LINKMAP) == 0) return folders;
+    addLinkerFolders(static_cast<link_map*>(object), folders);
+    // A program's own name is as it was called; the kernel knows where it is.
+    std::error_code code;
+    fs::path self = info.dli_fname;
+    if (!self.is_absolute()) self = fs::read_symlink("/proc/self/exe", code);
+    if (code) return folders;
+    folders.push_back(self.parent_path());
+    folders.push_back(self.parent_path().parent_path() / EMCA_FORMAT_MODULE_FOLDER);
+    return folders;
+}
+
 void* open(std::string& why) {
-    constexpr int kFlags = RTLD_LAZY | RTLD_LOCAL;
-    const auto remember = [&] {
+    why = "it is not there";
+    for (const fs::path& folder : searchFolders()) {
+        std::error_code code;
+        const fs::path file = folder / kFile;
+        if (folder.empty() || !fs::exists(file, code)) continue;
+        if (void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL)) return library;
         const char* error = dlerror();
         why = error ? error : "no reason was given";
-    };
-    if (void* library = dlopen(kFile, kFlags)) return library;
-    remember();
-    const fs::path folder = ownFolder();
-    if (folder.empty()) return nullptr;
-    for (const fs::path& file : std::array{folder / kFile, folder.parent_path() / EMCA_FORMAT_MODULE_FOLDER / kFile}) {
-        std::error_code code;
-        if (!fs::exists(file, code)) continue;
-        if (void* library = dlopen(file.c_str(), kFlags)) return library;
-        remember();
     }
     return nullptr;
 }
