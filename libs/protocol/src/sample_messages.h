@@ -33,6 +33,11 @@ class Source {
         for (char& c : result) c = static_cast<char>(1 + below(255));
         return result;
     }
+    std::vector<std::uint8_t> numbersBelow(std::uint8_t limit, std::size_t count) {
+        std::vector<std::uint8_t> numbers(count);
+        for (std::uint8_t& number : numbers) number = static_cast<std::uint8_t>(below(limit));
+        return numbers;
+    }
     /// Non-decreasing owners below `limit`, `count` of them.
     std::vector<Index> owners(std::size_t count, Index limit) {
         std::vector<Index> result(count);
@@ -112,8 +117,8 @@ inline PathColumns randomColumns(Source& source, Index paths) {
     c.emissions = source.raw<Color>(m);
     c.meshes = source.raw<std::int32_t>(m);
     c.faces = source.raw<std::int32_t>(m);
-    c.events = source.raw<std::uint8_t>(m);
-    c.lobes = source.raw<std::uint8_t>(m);
+    c.events = source.numbersBelow(kEventCount, m);
+    c.lobes = source.numbersBelow(kLobeCount, m);
     std::vector<std::uint32_t> labels(m);
     for (auto& label : labels) label = source.coin() ? kNoString : source.below(strings);
     c.labels = std::move(labels);
@@ -123,7 +128,10 @@ inline PathColumns randomColumns(Source& source, Index paths) {
         c.nextEvents = source.raw<NextEvent>(next);
         c.contributionOwners = source.owners(contributions, m);
         std::vector<Contribution> list = source.raw<Contribution>(contributions);
-        for (Contribution& contribution : list) contribution.technique = source.below(strings);
+        for (Contribution& contribution : list) {
+            contribution.technique = source.below(strings);
+            contribution.end = static_cast<LightEnd>(source.below(kLightEndCount));
+        }
         c.contributions = std::move(list);
     }
     if (paths > 0) {
