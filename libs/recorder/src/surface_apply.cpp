@@ -98,8 +98,16 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
     bump(shard.points, points);
 }
 
+/// Keeps a function that only prefetches: GCC takes it for one without effect and removes its calls.
+inline void keepPrefetches() {
+#ifdef __GNUC__
+    asm volatile("" ::: "memory");
+#endif
+}
+
 /// First of two steps before records are applied: what their faces are found by.
 void SurfaceStore::prefetchFaces(const std::uint32_t* record, std::uint32_t count) const {
+    keepPrefetches();
     for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
         const SurfacePlace& place = placeOf(record);
         if (const SurfaceRef* slot = slotOf(place.face)) __builtin_prefetch(slot);
@@ -110,6 +118,7 @@ void SurfaceStore::prefetchFaces(const std::uint32_t* record, std::uint32_t coun
 
 /// Second step, when those are there.
 void SurfaceStore::prefetchVertices(const std::uint32_t* record, std::uint32_t count) const {
+    keepPrefetches();
     for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
         if (!(record[kPlaceWords] & kIsPosition)) continue;
         const SurfacePlace& place = placeOf(record);

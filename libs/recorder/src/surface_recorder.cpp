@@ -21,25 +21,6 @@ SurfaceCursorImpl::~SurfaceCursorImpl() {
     for (SurfaceBlock* block : blocks) ::operator delete(block);
 }
 
-std::uint32_t* SurfaceCursorImpl::append(const SurfacePlace& place, std::uint32_t flags, std::uint32_t shard) {
-    Open& to = open[shard];
-    const std::uint32_t words = store.recordWords();
-    if (static_cast<std::size_t>(to.end - to.next) < words) [[unlikely]] replaceBlock(shard);
-    std::uint32_t* record = to.next;
-    to.next += words;
-    // Word by word: what was just written in words cannot be forwarded to a wider load.
-    record[0] = place.face;
-    record[1] = place.mesh;
-    record[2] = place.where[0];
-    record[3] = place.where[1];
-    record[4] = place.where[2];
-    static_assert(kPlaceWords == 5);
-    record[kPlaceWords] = flags;
-    // The other masks; values are read only where a mask says so.
-    for (std::size_t i = 1; i < store.maskWords().size(); ++i) record[store.maskWords()[i]] = 0;
-    return record;
-}
-
 void SurfaceCursorImpl::replaceBlock(std::uint32_t shard) {
     Open& to = open[shard];
     if (to.block != nullptr) {
@@ -76,7 +57,9 @@ SurfaceBlock* SurfaceCursorImpl::newBlock() {
 void SurfaceCursorState::addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value) {
     SurfaceCursorImpl& cursor = *at.cursor_->impl;
     if (!finiteBits(value.r) || !finiteBits(value.g) || !finiteBits(value.b)) return cursor.countInvalid();
-    std::uint32_t* record = cursor.append(at.place_, at.flags_ | kNotCounted, at.shard_);
+    std::uint32_t* record = cursor.append(at.shard_);
+    std::memcpy(record, &at.place_, sizeof at.place_);
+    record[kPlaceWords] = at.flags_ | kNotCounted;
     record[layer.maskWord_] |= 1u << layer.bit_;
     record[layer.value_] = std::bit_cast<std::uint32_t>(value.r);
     if (layer.channels_ == 1) return;
@@ -219,38 +202,58 @@ SurfaceCursor& SurfaceRecorder::cursor() {
     return *entries.back().handle;
 }
 
-SurfacePoint SurfaceCursor::record(std::uint32_t mesh, std::uint32_t face, Vec3f where, bool isPosition) {
-    if (state_ == nullptr) return {};
+/// The global face, or ~0 (and counted) if there is no such place. Faces beyond 2^32 - 1 do not take part.
+inline std::uint32_t SurfaceCursor::check(std::uint32_t mesh, std::uint32_t face, bool finite) const {
     detail::SurfaceCursorImpl& cursor = *state_->impl;
-    const auto& starts = cursor.store.faceStarts();
-    if (mesh >= cursor.store.meshes().size() || face >= starts[mesh + 1] - starts[mesh] ||
-        starts[mesh] + face > 0xffffffffu || !detail::finiteBits(where.x) || !detail::finiteBits(where.y) ||
-        !detail::finiteBits(where.z)) {
-        cursor.countInvalid();
-        return {};
+    const std::vector<std::uint64_t>& starts = cursor.store.faceStarts();
+    if (mesh + std::size_t(1) < starts.size() && finite) [[likely]] {
+        const std::uint64_t global = starts[mesh] + face;
+        if (global < starts[mesh + 1] && global < kNoFace) [[likely]] return static_cast<std::uint32_t>(global);
     }
+    cursor.countInvalid();
+    return kNoFace;
+}
+
+/// Writes record and point word by word from registers: what was just stored in words is slow to load as a whole.
+inline SurfacePoint SurfaceCursor::record(std::uint32_t mesh, std::uint32_t face, std::uint32_t a, std::uint32_t b,
+                                          std::uint32_t c, std::uint32_t flags) {
+    detail::SurfaceCursorImpl& cursor = *state_->impl;
+    const std::uint32_t shard = cursor.store.shardOf(face);
+    std::uint32_t* record = cursor.append(shard);
+    static_assert(detail::kPlaceWords == 5);
+    record[0] = face;
+    record[1] = mesh;
+    record[2] = a;
+    record[3] = b;
+    record[4] = c;
+    record[detail::kPlaceWords] = flags;
     SurfacePoint at;
     at.cursor_ = state_;
-    at.place_.face = static_cast<std::uint32_t>(starts[mesh] + face);
-    at.place_.mesh = mesh;
-    if (isPosition) {
-        at.flags_ = detail::kIsPosition;
-        for (int i = 0; i < 3; ++i) at.place_.where[i] = std::bit_cast<std::uint32_t>(where[i]);
-    } else {
-        detail::toFixed(where.x, where.y, at.place_.where[0], at.place_.where[1]);
-    }
-    at.shard_ = cursor.store.shardOf(at.place_.face);
-    at.record_ = cursor.append(at.place_, at.flags_, at.shard_);
-    at.serial_ = cursor.serialNumbers[at.shard_];
+    at.record_ = record;
+    at.serial_ = cursor.serialNumbers[shard];
+    at.shard_ = shard;
+    at.place_ = {face, mesh, {a, b, c}};
+    at.flags_ = flags;
     return at;
 }
 
 SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
-    return record(mesh, face, {barycentrics.x, barycentrics.y, 0}, false);
+    if (state_ == nullptr) return {};
+    const std::uint32_t global =
+        check(mesh, face, detail::finiteBits(barycentrics.x) && detail::finiteBits(barycentrics.y));
+    if (global == kNoFace) return {};
+    std::uint32_t u = 0, v = 0;
+    detail::toFixed(barycentrics.x, barycentrics.y, u, v);
+    return record(mesh, global, u, v, 0, 0);
 }
 
-SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f position) {
-    return record(mesh, face, position, true);
+SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f p) {
+    if (state_ == nullptr) return {};
+    const std::uint32_t global =
+        check(mesh, face, detail::finiteBits(p.x) && detail::finiteBits(p.y) && detail::finiteBits(p.z));
+    if (global == kNoFace) return {};
+    return record(mesh, global, std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
+                  std::bit_cast<std::uint32_t>(p.z), detail::kIsPosition);
 }
 
 SurfaceField SurfaceRecorder::finish() {

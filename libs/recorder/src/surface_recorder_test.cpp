@@ -114,8 +114,9 @@ TEST(SurfaceRecorder, ACounterNear32BitsGoesOnExactly) {
     cell->count = before;
     cell->sums[0] = double(before);
     for (int i = 0; i < 5000; ++i) {
-        std::uint32_t* record = cursor->append({0, 0, {1u << 28, 1u << 28}}, 0, store.shardOf(0));
-        record[store.layouts()[0].maskWord] |= 1u << store.layouts()[0].bit;
+        std::uint32_t* record = cursor->append(store.shardOf(0));
+        for (std::uint32_t word = 0; word < detail::kPlaceWords; ++word) record[word] = 0;  // face 0, at its first vertex
+        record[store.layouts()[0].maskWord] = 1u << store.layouts()[0].bit;
         record[store.layouts()[0].valueWord] = std::bit_cast<std::uint32_t>(1.f);
     }
     store.flush();

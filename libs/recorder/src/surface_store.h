@@ -215,8 +215,17 @@ struct SurfaceCursorImpl : SurfaceCursorState {
 
     struct Open { std::uint32_t* next = nullptr; std::uint32_t* end = nullptr; SurfaceBlock* block = nullptr; };
 
-    /// A new record with no values, and `flags` in its first mask.
-    std::uint32_t* append(const SurfacePlace& place, std::uint32_t flags, std::uint32_t shard);
+    /// Room for a new record, with no values yet; place and flags are for the caller to write.
+    std::uint32_t* append(std::uint32_t shard) {
+        Open& to = open[shard];
+        const std::uint32_t words = store.recordWords();
+        if (static_cast<std::size_t>(to.end - to.next) < words) [[unlikely]] replaceBlock(shard);
+        std::uint32_t* record = to.next;
+        to.next += words;
+        // Values are read only where a mask says so. The first mask holds the flags.
+        for (std::size_t i = 1; i < store.maskWords().size(); ++i) record[store.maskWords()[i]] = 0;
+        return record;
+    }
     void replaceBlock(std::uint32_t shard);
     SurfaceBlock* newBlock();
     void countInvalid() { invalid.store(invalid.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }

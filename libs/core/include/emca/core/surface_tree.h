@@ -44,11 +44,15 @@ class SubdivisionReader {
 /// that every step down is exact. Coordinates u + v <= kOne stay so.
 constexpr std::uint32_t kOne = 1u << 30;
 constexpr std::uint32_t descend(std::uint32_t& u, std::uint32_t& v) {
+    // Without branches: which child it is cannot be predicted, and this is done for every level of every sample.
     const std::uint32_t u2 = 2 * u, v2 = 2 * v;
-    if (u2 >= kOne) return u = u2 - kOne, v = v2, 1;
-    if (v2 >= kOne) return u = u2, v = v2 - kOne, 2;
-    if (u2 + v2 <= kOne) return u = u2, v = v2, 0;
-    return u = kOne - u2, v = kOne - v2, 3;
+    const std::uint32_t first = u2 >= kOne, second = (v2 >= kOne) & ~first;
+    const std::uint32_t middle = (u2 + v2 > kOne) & ~(first | second);
+    // The one in the middle is turned around: kOne - u2 instead of u2.
+    const std::uint32_t turn = 0 - middle;
+    u = (u2 ^ turn) - turn + ((middle - first) << 30);
+    v = (v2 ^ turn) - turn + ((middle - second) << 30);
+    return first + 2 * second + 3 * middle;
 }
 
 /// From weights of the second and third vertex, moved into the triangle. Finite ones only.

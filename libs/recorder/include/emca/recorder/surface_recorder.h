@@ -104,7 +104,10 @@ class SurfaceCursor {
   private:
     friend class SurfaceRecorder;
     SurfaceCursor() = default;
-    SurfacePoint record(std::uint32_t mesh, std::uint32_t face, Vec3f where, bool isPosition);
+    static constexpr std::uint32_t kNoFace = ~0u;
+    std::uint32_t check(std::uint32_t mesh, std::uint32_t face, bool finite) const;
+    SurfacePoint record(std::uint32_t mesh, std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                        std::uint32_t flags);
     detail::SurfaceCursorState* state_ = nullptr;
 };
 
