@@ -82,18 +82,24 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
         return std::min<std::uint32_t>(kLanes, count - std::min(count, done + group * kLanes));
     };
     const std::size_t groupWords = std::size_t(kLanes) * recordWords_;
-    Lane lanes[kLanes];
+    // Two groups at once: while the nodes of one are on their way, the other looks for its own. A triangle that divides
+    // in between keeps what the later group found it for, as it does with points of other threads.
+    Lane lanes[2][kLanes];
+    std::uint32_t pending = 0;
     std::uint64_t points = 0;
     prefetchFaces(record, ahead(0, 0));
     prefetchFaces(record + groupWords, ahead(1, 0));
     prefetchVertices(record, ahead(0, 0));
-    for (std::uint32_t done = 0; done < count; done += kLanes, record += groupWords) {
+    for (std::uint32_t done = 0, turn = 0; done < count; done += kLanes, record += groupWords, turn ^= 1) {
         prefetchFaces(record + 2 * groupWords, ahead(2, done));
         prefetchVertices(record + groupWords, ahead(1, done));
         const std::uint32_t used = ahead(0, done);
-        points += enter(shard, record, used, lanes);
-        descendAll(lanes, used);
-        for (std::uint32_t i = 0; i < used; ++i) addRecord(shard, lanes[i]);
+        points += enter(shard, record, used, lanes[turn]);
+        descendAll(lanes[turn], used);
+        for (std::uint32_t i = 0; i < pending; ++i) addRecord(shard, lanes[turn ^ 1][i]);
+        pending = used;
+        if (done + kLanes >= count)
+            for (std::uint32_t i = 0; i < used; ++i) addRecord(shard, lanes[turn][i]);
     }
     bump(shard.points, points);
 }
@@ -269,12 +275,15 @@ SurfaceRef* SurfaceStore::slotOf(std::uint32_t face) const {
 }
 
 SurfaceRef* SurfaceStore::newRoot(SurfaceShard& shard, std::uint32_t face) {
-    if (!storesFaces_) return nullptr;
+    if (!storesFaces_ || shard.full) return nullptr;
     Page*& page = pages_[face >> pageBits_];
     if (page == nullptr) page = reinterpret_cast<Page*>(allocate(shard, pageBytes_));
     if (page == nullptr) return nullptr;
     std::byte* node = allocate(shard, nodeBytes_);
-    if (node == nullptr) return nullptr;
+    if (node == nullptr) {
+        shard.full = true;  // from here on, half of all samples may come this way
+        return nullptr;
+    }
     SurfaceRef* slot = slotOf(face);
     *slot = SurfaceRef(node, SurfaceRef::leaf);
     return slot;

@@ -25,9 +25,10 @@ double meanDensity(std::span<const float> counts, std::span<const float> areas) 
     return area > 0 ? count / area : 0;
 }
 
-/// A few samples on a face that is much smaller than the place that a sample stands for.
+/// A few samples on a face that is much smaller than the place that a sample stands for. Not those without any area:
+/// what arrives there is no chance, but an error of the scene or the renderer, and has no density.
 bool isSliver(float count, float area, double density) {
-    return count > 0 && (area <= 0 || (double(count) <= kByChance && double(area) * density < 0.25));
+    return count > 0 && area > 0 && double(count) <= kByChance && double(area) * density < 0.25;
 }
 
 }  // namespace
@@ -108,8 +109,8 @@ class DensityFill {
     /// single sample on almost no area would else outshine the whole map.
     void mergeSlivers() {
         std::vector<std::uint32_t> order;
-        for (std::uint32_t face = 0; face < clusters_.size(); ++face)
-            if (isSliver(static_cast<float>(clusters_[face].count), areas_[face], density_)) order.push_back(face);
+        for (std::uint32_t face = 0; face < clusters_.size(); ++face)  // also empty ones, which may get something
+            if (isSliver(1, areas_[face], density_)) order.push_back(face);
         std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return areas_[a] < areas_[b]; });
         for (const std::uint32_t face : order) {
             std::uint32_t target = face;

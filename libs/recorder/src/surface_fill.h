@@ -36,7 +36,7 @@ bool densitiesNeedFilling(std::span<const float> counts, std::span<const float> 
 ///
 /// \param sums    per face: what was added; on return what its density is to be computed from
 /// \param counts  per face: number of samples, may be a fraction
-/// \param areas   per face; a face without area hands what it got to a neighbour
+/// \param areas   per face; those without area take no part
 void fillDensities(const SurfaceNeighbours& neighbours, std::span<double> sums, std::span<const float> counts,
                    std::span<const float> areas);
 

@@ -24,7 +24,7 @@ struct Collection {
     SurfaceLayer density, mean;
 
     explicit Collection(std::vector<Mesh> scene, SurfaceOptions options = {})
-        : meshes(std::move(scene)), recorder(std::span<const Mesh>(meshes), options),
+        : meshes(std::move(scene)), recorder(meshes, options),
           density(*recorder.addLayer({"density", LayerKind::density, "1/m^2", ""})),
           mean(*recorder.addLayer({"mean", LayerKind::mean, "", ""})) {}
 
@@ -223,7 +223,7 @@ TEST(SurfaceRecorder, EveryCallIsASampleOfItsOwn) {
 
 TEST(SurfaceRecorder, AnyNumberOfLayers) {
     const std::vector<Mesh> meshes = {grid(2)};
-    SurfaceRecorder recorder(std::span<const Mesh>(meshes), {.samplesPerDivision = 10});
+    SurfaceRecorder recorder(meshes, {.samplesPerDivision = 10});
     std::vector<SurfaceLayer> layers;
     for (int i = 0; i < 100; ++i)
         layers.push_back(*recorder.addLayer({"layer " + std::to_string(i), LayerKind(i % 4), "", ""}));
@@ -245,7 +245,7 @@ TEST(SurfaceRecorder, AnyNumberOfLayers) {
 
 TEST(SurfaceRecorder, NothingIsAllocatedBeforeALayerIsAskedFor) {
     const std::vector<Mesh> meshes = {grid(2)};
-    SurfaceRecorder recorder{std::span<const Mesh>(meshes)};
+    SurfaceRecorder recorder(meshes);
     recorder.cursor().locate(0, 0, Vec2f{});
     EXPECT_EQ(recorder.counts().bytesUsed, 0u);
     const SurfaceLayer nothing;
@@ -260,7 +260,7 @@ TEST(SurfaceRecorder, NothingIsAllocatedBeforeALayerIsAskedFor) {
 
 TEST(SurfaceRecorder, LayersAreRefusedWithAReason) {
     const std::vector<Mesh> meshes = {grid(1)};
-    SurfaceRecorder recorder{std::span<const Mesh>(meshes)};
+    SurfaceRecorder recorder(meshes);
     EXPECT_FALSE(recorder.addLayer({"", LayerKind::mean, "", ""}).ok());
     EXPECT_FALSE(recorder.addLayer({"x", LayerKind(17), "", ""}).ok());
     EXPECT_TRUE(recorder.addLayer({"x", LayerKind::mean, "", ""}).ok());

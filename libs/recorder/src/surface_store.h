@@ -89,6 +89,7 @@ struct alignas(64) SurfaceShard {
     // The rest is the owner's. Counters are read by counts(), hence atomic; only the owner writes them.
     std::byte* free = nullptr;     ///< of the chunk that new nodes come from
     std::byte* freeEnd = nullptr;
+    bool full = false;             ///< not even a node is left for it
     std::atomic<std::uint64_t> points{0}, coarse{0}, refused{0};
 };
 
