@@ -27,6 +27,13 @@ double readEverything(const emca::PathSet& paths) {
     return sum;
 }
 
+double readEverything(const emca::protocol::SurfaceChunk& chunk) {
+    double sum = 0;
+    for (const auto& part : chunk.meshes) for (const std::uint8_t byte : part.bits) sum += byte;
+    for (const auto& part : chunk.arrays) for (const float value : part.values) sum += static_cast<double>(value);
+    return sum;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -39,6 +46,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!message) return 0;
     if (const auto* trace = std::get_if<emca::protocol::TraceResult>(&message->body)) {
         volatile double sum = readEverything(trace->paths);
+        (void)sum;
+    }
+    if (const auto* chunk = std::get_if<emca::protocol::SurfaceChunk>(&message->body)) {
+        volatile double sum = readEverything(*chunk);
         (void)sum;
     }
     if (std::holds_alternative<emca::protocol::Unknown>(message->body)) return 0;

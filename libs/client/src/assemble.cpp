@@ -91,6 +91,11 @@ Result<void> ImageAssembler::begin(const protocol::RenderResult& result) {
     render_.integrator = result.settings.integrator;
     render_.sampler = result.settings.sampler;
     render_.seconds = result.seconds;
+    for (const protocol::Layer& layer : result.layers) {
+        render_.layers.push_back(layer.description);
+        render_.layerSamples.push_back(layer.samples);
+    }
+    render_.surfaceCounts = result.surfaceCounts;
     render_.image.color = Image(width_, height_, {"R", "G", "B"});
     render_.image.samples = Image(width_, height_, {"samples"});
     return {};

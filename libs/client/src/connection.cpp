@@ -1,9 +1,12 @@
 #include "emca/client/connection.h"
 
 #include <cmath>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "assemble.h"
+#include "assemble_surface.h"
 #include "link.h"
 
 namespace emca::client {
@@ -12,6 +15,20 @@ class Connection::Impl {
   public:
     explicit Impl(std::shared_ptr<Link> l) : link(std::move(l)) {}
     const std::shared_ptr<Link> link;
+    /// Of the meshes as they came last: what surface layers must fit.
+    std::optional<std::vector<std::uint32_t>> triangleCounts() {
+        const std::lock_guard lock(mutex);
+        return counts;
+    }
+    void remember(const std::vector<Mesh>& meshes) {
+        const std::lock_guard lock(mutex);
+        counts.emplace();
+        for (const Mesh& mesh : meshes) counts->push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    }
+
+  private:
+    std::mutex mutex;
+    std::optional<std::vector<std::uint32_t>> counts;
 };
 
 namespace {
@@ -102,7 +119,7 @@ const Address& Connection::address() const { return impl_->link->address(); }
 bool Connection::isOpen() const { return impl_->link->isOpen(); }
 void Connection::close() { impl_->link->close(); }
 
-// Each call holds the link, so that the connection may be destroyed while it waits.
+// Each call holds what it needs, so that the connection may be destroyed while it waits.
 
 Result<ServerInfo> Connection::info() {
     const auto link = impl_->link;
@@ -124,6 +141,10 @@ Result<ServerInfo> Connection::info() {
     info.capabilities = std::move(reply->capabilities);
     info.tools = std::move(reply->tools);
     info.latestRender = reply->latestRender;
+    for (protocol::Layer& layer : reply->layers) info.layers.push_back(std::move(layer.description));
+    info.surfaceRender = reply->surfaceRender;
+    for (protocol::Layer& layer : reply->collected) info.collected.push_back({std::move(layer.description), layer.samples, layer.total});
+    info.maximumSurfaceBudget = reply->maximumSurfaceBudget;
     return info;
 }
 
@@ -133,9 +154,9 @@ Result<Camera> Connection::camera() {
 }
 
 Result<std::vector<Mesh>> Connection::meshes(const RequestObserver& observer) {
-    const auto link = impl_->link;
+    const auto impl = impl_;
     SceneAssembler scene;
-    const auto done = link->request(
+    const auto done = impl->link->request(
         protocol::SceneRequest{},
         [&](protocol::Body& message) -> Outcome {
             if (std::holds_alternative<protocol::Progress>(message)) return std::nullopt;
@@ -148,14 +169,16 @@ Result<std::vector<Mesh>> Connection::meshes(const RequestObserver& observer) {
         },
         observer.cancel.get());
     if (!done) return done.error();
-    return scene.take();
+    auto meshes = scene.take();
+    impl->remember(meshes);
+    return meshes;
 }
 
 Result<Render> Connection::render(const RenderOptions& options, const RequestObserver& observer) {
     const auto link = impl_->link;
     ImageAssembler image;
     const auto done = link->request(
-        protocol::RenderRequest{settingsOf(options), options.preview && observer.preview, 0},
+        protocol::RenderRequest{settingsOf(options), options.preview && observer.preview, 0, options.layers, options.surfaceBudget},
         [&](protocol::Body& message) -> Outcome {
             if (const auto* tile = std::get_if<protocol::PreviewTile>(&message)) {
                 if (observer.preview) observer.preview(tile->rect, tile->colors.span());
@@ -178,6 +201,34 @@ Result<Render> Connection::render(const RenderOptions& options, const RequestObs
         observer.cancel.get());
     if (!done) return done.error();
     return image.take();
+}
+
+Result<SurfaceField> Connection::surface(std::uint64_t renderId, std::vector<std::string> layers, const RequestObserver& observer) {
+    const auto impl = impl_;
+    SurfaceAssembler surface;
+    protocol::SurfaceRequest request;
+    request.layers = std::move(layers);
+    request.renderId = renderId;
+    const auto done = impl->link->request(
+        std::move(request),
+        [&](protocol::Body& message) -> Outcome {
+            if (std::holds_alternative<protocol::Progress>(message)) return std::nullopt;
+            Result<void> added;
+            if (const auto* begin = std::get_if<protocol::SurfaceResult>(&message)) {
+                added = surface.begin(*begin);
+            } else if (const auto* chunk = std::get_if<protocol::SurfaceChunk>(&message)) {
+                added = surface.add(*chunk);
+            } else {
+                return unexpected();
+            }
+            if (!added) return added;
+            if (observer.progress) observer.progress(surface.fraction());
+            if (surface.complete()) return Result<void>();
+            return std::nullopt;
+        },
+        observer.cancel.get());
+    if (!done) return done.error();
+    return surface.take(impl->triangleCounts());
 }
 
 Result<Trace> Connection::tracePixel(Pixel pixel, const TraceOptions& options, const RequestObserver& observer) {

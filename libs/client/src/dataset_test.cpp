@@ -129,6 +129,26 @@ TEST(Dataset, TransactionTellsOnceAtItsEnd) {
     EXPECT_EQ(heard.rounds.size(), 1u);
 }
 
+TEST(Dataset, SurfaceLayersAreToldOfAndGoWithTheScene) {
+    Dataset data;
+    const Heard heard(data);
+    const auto surface = std::make_shared<const SurfaceField>();
+    data.setSurface(nullptr);
+    EXPECT_TRUE(heard.rounds.empty()) << "there were none before";
+    data.setSurface(surface);
+    EXPECT_EQ(data.surface(), surface);
+    data.addTrace(traceOf(1));
+    EXPECT_EQ(data.surface(), surface) << "a trace after the render keeps them";
+    data.setSurface(surface);
+    data.clearScene();
+    EXPECT_EQ(data.surface(), nullptr);
+    ASSERT_EQ(heard.rounds.size(), 4u);
+    EXPECT_EQ(heard.rounds[0], std::uint32_t(DatasetPart::surface));
+    EXPECT_EQ(heard.rounds[1] & DatasetPart::surface, 0u);
+    EXPECT_EQ(heard.rounds[2], std::uint32_t(DatasetPart::surface));
+    EXPECT_NE(heard.rounds[3] & DatasetPart::surface, 0u);
+}
+
 TEST(Dataset, ClearSceneKeepsImagesWithoutTheirRenderIds) {
     Dataset data;
     data.setInfo(ServerInfo{});

@@ -134,6 +134,76 @@ TEST(Codec, SettingsAndCommentsOfATraceArrive) {
     EXPECT_EQ(got.renderSeconds, 0.25);
 }
 
+TEST(Codec, SurfaceLayersArrive) {
+    const Layer hits{{"hits", LayerKind::density, "1/m^2", "Adds 1 at each hit."}, (1ull << 32) + 5, 1e300};
+    const Layer radiance{{"radiance", LayerKind::meanColor, "W/(sr m^2)", ""}, 3, -0.25};
+    const SurfaceCounts counts{(1ull << 32) + 7, 2, 3, 4, 5, 1ull << 33};
+
+    Info info;
+    info.layers = {hits, radiance};
+    info.surfaceRender = 1ull << 50;
+    info.collected = {radiance};
+    info.maximumSurfaceBudget = 1ull << 32;
+    const auto gotInfo = std::get<Info>(throughTheWire({1, info}).body);
+    EXPECT_EQ(gotInfo.layers, info.layers);
+    EXPECT_EQ(gotInfo.surfaceRender, info.surfaceRender);
+    EXPECT_EQ(gotInfo.collected, info.collected);
+    EXPECT_EQ(gotInfo.maximumSurfaceBudget, info.maximumSurfaceBudget);
+
+    const auto request = std::get<RenderRequest>(throughTheWire({1, RenderRequest{{}, true, 9, {"a", "b"}, 1ull << 40}}).body);
+    EXPECT_EQ(request.layers, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(request.surfaceBudget, 1ull << 40);
+    EXPECT_EQ(request.maximumChunkBytes, 9u);
+
+    const auto rendered = std::get<RenderResult>(throughTheWire({1, RenderResult{8, {}, 1, 2, 1, {hits}, counts}}).body);
+    EXPECT_EQ(rendered.layers, std::vector<Layer>{hits});
+    EXPECT_EQ(rendered.surfaceCounts, counts);
+
+    const auto asked = std::get<SurfaceRequest>(throughTheWire({1, SurfaceRequest{{"a"}, {}, 5, 77, 4096}}).body);
+    EXPECT_EQ(asked.layers, std::vector<std::string>{"a"});
+    EXPECT_EQ(asked.renderId, 77u);
+    EXPECT_EQ(asked.maximumChunkBytes, 4096u);
+
+    const auto result = std::get<SurfaceResult>(throughTheWire({1, SurfaceResult{8, {hits, radiance}, counts, 2, 1ull << 27, 9}}).body);
+    EXPECT_EQ(result.renderId, 8u);
+    EXPECT_EQ(result.layers, (std::vector<Layer>{hits, radiance}));
+    EXPECT_EQ(result.counts, counts);
+    EXPECT_EQ(result.meshCount, 2u);
+    EXPECT_EQ(result.faceCount, 1ull << 27);
+    EXPECT_EQ(result.topologyBytes, 9u);
+
+    const std::vector<std::uint8_t> bits{1, 2, 255};
+    const std::vector<float> values{1.5f, -0.f, 3};
+    const auto chunk = std::get<SurfaceChunk>(
+        throughTheWire({1, SurfaceChunk{{{1, 20, 26, 4, 1, bits}}, {{2, 1ull << 33, values}}, true}}).body);
+    ASSERT_EQ(chunk.meshes.size(), 1u);
+    EXPECT_EQ(chunk.meshes[0].mesh, 1u);
+    EXPECT_EQ(chunk.meshes[0].triangleCount, 20u);
+    EXPECT_EQ(chunk.meshes[0].faceCount, 26u);
+    EXPECT_EQ(chunk.meshes[0].byteCount, 4u);
+    EXPECT_EQ(chunk.meshes[0].firstByte, 1u);
+    EXPECT_TRUE(sameBits(chunk.meshes[0].bits, SharedArray<std::uint8_t>(bits)));
+    ASSERT_EQ(chunk.arrays.size(), 1u);
+    EXPECT_EQ(chunk.arrays[0].array, 2u);
+    EXPECT_EQ(chunk.arrays[0].first, 1ull << 33);
+    EXPECT_TRUE(sameBits(chunk.arrays[0].values, SharedArray<float>(values)));
+    EXPECT_TRUE(chunk.last);
+}
+
+TEST(Codec, LayersOfALaterKindAreLeftOutOrFailWhatCountsThem) {
+    Layer later{{"later", static_cast<LayerKind>(9), "", ""}, 0, 0};
+    Info info;
+    info.layers = {later, {{"mean", LayerKind::mean, "", ""}, 0, 0}};
+    const auto got = std::get<Info>(throughTheWire({1, info}).body);
+    ASSERT_EQ(got.layers.size(), 1u);
+    EXPECT_EQ(got.layers[0].description.name, "mean");
+    SurfaceResult result;
+    result.layers = {later};
+    const auto refused = decode(*encode({1, result}));
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::protocolViolation);
+}
+
 /// Encoding is a function of the content, so equal bytes after a second round mean that nothing was lost.
 TEST(Codec, EveryMessageArrivesWithAllItsFields) {
     auto messages = test::everyMessage();

@@ -50,6 +50,12 @@ bool decodesCleanly(const Frame& frame) {
         EXPECT_GE(readEverything(trace->paths), 0);
         EXPECT_EQ(trace->pixels.size(), trace->replays.size());
     }
+    if (const auto* chunk = std::get_if<SurfaceChunk>(&message->body)) {
+        double sum = 0;
+        for (const SurfaceMeshPart& part : chunk->meshes) for (const std::uint8_t byte : part.bits) sum += byte;
+        for (const SurfaceArrayPart& part : chunk->arrays) for (const float value : part.values) sum += value > 0 ? 1 : 0;
+        EXPECT_GE(sum, 0);
+    }
     const bool known = !std::holds_alternative<Unknown>(message->body);
     EXPECT_EQ(encode(*message).ok(), known);
     return true;

@@ -49,6 +49,11 @@ TEST(ProtocolPage, TheWorkedExampleHasRealBytes) {
     trace.pixels = {{12, 34}};
     trace.settings.samplesPerPixel = 16;
     EXPECT_EQ(block(text, "trace"), hex({1, trace}));
+    SurfaceChunk surface;
+    surface.meshes = {{0, 2, 5, 1, 0, std::vector<std::uint8_t>{1}}};
+    surface.arrays = {{0, 0, std::vector<float>{0, 0, 0, 2, 1}}, {1, 0, std::vector<float>{0, 0, 0, 2, 1}}};
+    surface.last = true;
+    EXPECT_EQ(block(text, "surface"), hex({1, surface}));
 }
 
 TEST(ProtocolPage, EveryKindOfMessageIsListedWithItsNumber) {
@@ -80,6 +85,9 @@ TEST(ProtocolPage, LimitsAreThoseOfTheProgram) {
         const std::string row = "| " + std::string(what) + " | " + std::to_string(limit) + " |";
         EXPECT_NE(text.find(row), std::string::npos) << row;
     }
+    const std::string surfaces = "at most " + std::to_string(kMaximumSurfaceLayers) + " surface layers and " +
+                                 std::to_string(kMaximumSurfaceFaces) + " refined faces";
+    EXPECT_NE(text.find(surfaces), std::string::npos) << surfaces;
 }
 
 }  // namespace

@@ -181,7 +181,11 @@ inline std::vector<Message> everyMessage() {
     camera.position = {1, 2, 3};
     camera.apertureRadius = 0.125f;
     camera.rightHanded = false;
-    Info info{"renderer", "scene", "path", "sobol", 640, 480, 64, 5, true, true, 1u << 20, 12, 4096, 100, 1u << 30, {"a", "b"}, {"tool"}, 3};
+    const Layer density{{"hits", LayerKind::density, "1/m^2", "Adds 1 at each hit."}, 17, 17};
+    const Layer radiance{{"radiance", LayerKind::meanColor, "W/(sr m^2)", ""}, 1ull << 40, -0.5};
+    const SurfaceCounts counts{1ull << 33, 2, 3, 4, 5, 1ull << 32};
+    Info info{"renderer", "scene", "path", "sobol", 640, 480, 64, 5, true, true, 1u << 20, 12, 4096, 100, 1u << 30, {"a", "b"}, {"tool"}, 3,
+              {density, radiance}, 2, {radiance}, 1ull << 32};
     MeshPart part{2, "mesh", "glass", Color(0.25f), Color(7), 3, 1, 0, 0, std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                   std::vector<Triangle>{{0, 1, 2}}};
     TraceRequest trace{{{1, 2}, {3, 4}}, {5, 6, 7, 8}, settings, Against::givenColors, 11, std::vector<Color>{{1, 2, 3}, {4, 5, 6}},
@@ -190,11 +194,13 @@ inline std::vector<Message> everyMessage() {
     const Error error{ErrorCode::pixelOutOfRange, "Pixel (9, 9) is outside."};
     std::vector<Body> bodies{Hello{"client 1", 1, 3, {"x"}, "token"}, Welcome{"server 1", 1, {"y"}, 1u << 24}, Refusal{error, 1, 2},
                              Cancel{}, Progress{0.5f, true}, Failure{error}, Done{}, InfoRequest{}, info, CameraRequest{}, camera,
-                             SceneRequest{1u << 20}, SceneChunk{3, 9, 4, {part, part}, true}, RenderRequest{settings, true, 1u << 20},
-                             PreviewTile{{0, 0, 2, 1}, std::vector<Color>{{1, 2, 3}, {4, 5, 6}}}, RenderResult{8, settings, 1.5, 2, 1},
+                             SceneRequest{1u << 20}, SceneChunk{3, 9, 4, {part, part}, true}, RenderRequest{settings, true, 1u << 20, {"hits", "radiance"}, 1ull << 33},
+                             PreviewTile{{0, 0, 2, 1}, std::vector<Color>{{1, 2, 3}, {4, 5, 6}}}, RenderResult{8, settings, 1.5, 2, 1, {density}, counts},
                              ImageRows{0, 1, std::vector<Color>(2), std::vector<float>{4, 5}, std::vector<Color>(2), true}, trace,
-                             traceResult(1, 5), SurfaceRequest{{"density"}, settings, 5}, ToolRequest{"tool", bytes}, ToolResult{bytes},
-                             QuitRequest{}};
+                             traceResult(1, 5), SurfaceRequest{{"density"}, settings, 5, 8, 1u << 20}, ToolRequest{"tool", bytes}, ToolResult{bytes},
+                             QuitRequest{}, SurfaceResult{8, {density, radiance}, counts, 2, 9, 2},
+                             SurfaceChunk{{{0, 2, 5, 2, 0, std::vector<std::uint8_t>{0x21}}, {1, 4, 4, 0, 0, {}}},
+                                          {{0, 0, std::vector<float>{1, 0, 2}}, {2, 24, std::vector<float>{0.5f, -1, 3}}}, true}};
     std::vector<Message> messages;
     for (Body& body : bodies) messages.push_back({messages.size() * 1000003, std::move(body)});
     return messages;

@@ -146,10 +146,7 @@ bool Server::Impl::admit(Session&) {
 }
 
 void Server::Impl::submit(std::shared_ptr<Request> request) {
-    if (auto answer = service_->immediately(request->body)) {
-        request->client->finish(*request, std::move(*answer));
-        return;
-    }
+    if (service_->answerAtOnce(request)) return;
     const Lane lane = Service::laneOf(request->body);
     scheduler_->add(lane, std::move(request));
 }

@@ -1,5 +1,6 @@
 #include "service.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <new>
@@ -8,6 +9,7 @@
 
 #include "chunks.h"
 #include "monitor.h"
+#include "surface_collection.h"
 
 namespace emca {
 
@@ -49,7 +51,9 @@ Result<std::unique_ptr<Service>> Service::make(Renderer& renderer, const ServerO
     try {
         RendererInfo info = renderer.info();
         if (info.width == 0 || info.height == 0) return rendererFailed("it announces an image without pixels.");
-        return std::unique_ptr<Service>(new Service(renderer, options, std::move(info)));
+        std::vector<LayerDescription> layers = renderer.surfaceLayers();
+        if (auto checked = checkLayers(layers); !checked) return checked.error();
+        return std::unique_ptr<Service>(new Service(renderer, options, std::move(info), std::move(layers)));
     } catch (const std::exception& exception) {
         return rendererFailed(exception.what());
     } catch (...) {
@@ -57,8 +61,9 @@ Result<std::unique_ptr<Service>> Service::make(Renderer& renderer, const ServerO
     }
 }
 
-Service::Service(Renderer& renderer, const ServerOptions& options, RendererInfo info)
-    : renderer_(renderer), options_(options), info_(std::move(info)), images_(options.keptImages) {}
+Service::Service(Renderer& renderer, const ServerOptions& options, RendererInfo info, std::vector<LayerDescription> layers)
+    : renderer_(renderer), options_(options), info_(std::move(info)), layers_(std::move(layers)),
+      images_(options.keptImages), surfaces_(options.keptSurfaces) {}
 
 void Service::run(const std::shared_ptr<Request>& request) noexcept {
     const auto fail = [&](Error error) {
@@ -103,9 +108,6 @@ std::optional<protocol::Body> Service::immediately(const protocol::Body& request
     if (std::holds_alternative<protocol::InfoRequest>(request)) {
         if (!sceneCounted_) return std::nullopt;
         return infoReply();
-    }
-    if (std::holds_alternative<protocol::SurfaceRequest>(request)) {
-        return protocol::Failure{{ErrorCode::notSupported, "This server does not offer surface layers."}};
     }
     return protocol::Failure{{ErrorCode::notSupported, "This server does not know this kind of request: it is older than the client."}};
 }
@@ -162,6 +164,15 @@ protocol::Info Service::infoReply() const {
     if (info_.concurrent) reply.capabilities.emplace_back("concurrent");
     if (info_.deterministic) reply.capabilities.emplace_back("deterministic");
     if (options_.allowQuit) reply.capabilities.emplace_back("quit");
+    if (!layers_.empty() && std::find(reply.capabilities.begin(), reply.capabilities.end(), "surface-layers") == reply.capabilities.end()) {
+        reply.capabilities.emplace_back("surface-layers");
+    }
+    for (const LayerDescription& layer : layers_) reply.layers.push_back({layer, 0, 0});
+    if (const auto surface = surfaces_.newest()) {
+        reply.surfaceRender = surface->renderId;
+        reply.collected = collectedLayers(surface->field);
+    }
+    if (!layers_.empty()) reply.maximumSurfaceBudget = options_.maximumSurfaceBudget;
     for (const auto& tool : tools()) reply.tools.push_back(tool->name());
     reply.latestRender = images_.latest();
     return reply;
@@ -186,15 +197,33 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
 Service::Answer Service::answer(const std::shared_ptr<Request>& request, const protocol::RenderRequest& asked) {
     const protocol::Settings settings = filled(asked.settings, sceneSettings());
     if (auto samples = checkSamples(settings.samplesPerPixel); !samples) return samples.error();
+    auto collection = collectionFor(asked);
+    if (!collection) return collection.error();
     JobMonitor monitor(request, asked.preview);
     const auto begin = std::chrono::steady_clock::now();
-    auto image = renderer_.renderImage(toRenderer(settings), monitor);
+    auto image = *collection ? renderer_.renderImageWithLayers(toRenderer(settings), (*collection)->recorder, monitor)
+                             : renderer_.renderImage(toRenderer(settings), monitor);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (!image) return image.error();
     if (request->cancelled) return wasCancelled();
     if (auto checked = checkAndComplete(*image, info_, settings.samplesPerPixel); !checked) return checked.error();
+    std::shared_ptr<KeptSurface> surface;
+    if (*collection) {
+        auto collected = finished(**collection);
+        if (!collected) return collected.error();
+        if (request->cancelled) return wasCancelled();
+        surface = std::move(collected).value();
+    }
     const auto kept = images_.add(settings, seconds.count(), std::move(image).value());
-    request->client->send(*request, protocol::RenderResult{kept->id, kept->settings, kept->seconds, info_.width, info_.height});
+    protocol::RenderResult result{kept->id, kept->settings, kept->seconds, info_.width, info_.height, {}, {}};
+    if (surface) {
+        surface->renderId = kept->id;
+        surface->settings = kept->settings;
+        result.layers = collectedLayers(surface->field);
+        result.surfaceCounts = surface->field.counts;
+        surfaces_.add(std::move(surface));
+    }
+    request->client->send(*request, std::move(result));
     request->client->stream(*request, imageRows(kept, chunkBytes(asked.maximumChunkBytes)));
     return std::optional<protocol::Body>();
 }

@@ -172,7 +172,7 @@ class Connection {
   private:
     class Impl;
     explicit Connection(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
+    std::shared_ptr<Impl> impl_;  // calls that run hold it too
 };
 
 }  // namespace emca::client

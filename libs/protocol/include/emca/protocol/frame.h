@@ -24,7 +24,9 @@ inline constexpr std::uint16_t kMinimumVersion = 1, kMaximumVersion = 1;
 inline constexpr std::size_t kMaximumHandshakeBytes = 4u << 10;   ///< the first frame of each side
 inline constexpr std::size_t kMaximumRequestBytes = 16u << 20;    ///< client to server
 inline constexpr std::size_t kMaximumReplyBytes = 1u << 30;       ///< server to client
-inline constexpr std::size_t kChunkBytes = 4u << 20;              ///< of scenes and images, if the client does not say
+inline constexpr std::size_t kChunkBytes = 4u << 20;              ///< of scenes, images and layers, if the client does not say
+inline constexpr std::size_t kMaximumSurfaceLayers = 4096;        ///< of one answer
+inline constexpr std::uint64_t kMaximumSurfaceFaces = 1u << 28;   ///< refined ones, of all meshes
 
 std::array<std::byte, kHeaderBytes> header(const Frame& frame);
 
