@@ -77,6 +77,15 @@ Result<RenderedImage> RendererAdapter::renderImage(const RenderSettings& setting
     return renderer_.renderImage(*options, callbacksTo(monitor));
 }
 
+std::vector<LayerDescription> RendererAdapter::surfaceLayers() const { return render::surfaceLayers(); }
+
+Result<RenderedImage> RendererAdapter::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                             RequestMonitor& monitor) {
+    const auto options = optionsFor(settings);
+    if (!options) return options.error();
+    return renderer_.renderImage(*options, callbacksTo(monitor), &surface);
+}
+
 Result<Color> RendererAdapter::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&,
                                            RequestMonitor& monitor) {
     const auto options = optionsFor(settings);

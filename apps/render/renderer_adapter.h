@@ -19,6 +19,9 @@ class RendererAdapter final : public Renderer {
     Camera camera() const override;
     std::vector<Mesh> meshes() const override;
     Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
+    std::vector<LayerDescription> surfaceLayers() const override;
+    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                RequestMonitor& monitor) override;
     Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
                               RequestMonitor& monitor) override;
 
