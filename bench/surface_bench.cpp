@@ -44,6 +44,15 @@ struct Sample {
     float value;
 };
 
+struct Workload {
+    std::uint32_t side;
+    std::uint64_t samples;
+    std::size_t budget = 256u << 20;
+    int layers = 1;
+    bool onePoint = false;
+    bool barycentrics = false;  ///< given as such, as most ray tracers have them; else found from the position
+};
+
 std::uint64_t next(std::uint64_t& state) {  // SplitMix64
     std::uint64_t z = state += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
@@ -52,26 +61,20 @@ std::uint64_t next(std::uint64_t& state) {  // SplitMix64
 }
 
 /// Uniform over faces and over each face. Called again and again with other seeds, as 50 M samples need not be kept.
-void fill(std::vector<Sample>& samples, const Mesh& mesh, std::uint64_t seed, bool onePoint) {
+void fill(std::vector<Sample>& samples, const Mesh& mesh, std::uint64_t seed, const Workload& work) {
     std::uint64_t state = seed;
     for (Sample& s : samples) {
         const std::uint64_t a = next(state), b = next(state);
-        s.face = onePoint ? 0 : static_cast<std::uint32_t>((a & 0xffffffffu) * mesh.triangles.size() >> 32);
-        float u = onePoint ? 0.3f : float(b >> 40) * 0x1p-24f, v = onePoint ? 0.2f : float(b >> 8 & 0xffffff) * 0x1p-24f;
+        s.face = work.onePoint ? 0 : static_cast<std::uint32_t>((a & 0xffffffffu) * mesh.triangles.size() >> 32);
+        float u = work.onePoint ? 0.3f : float(b >> 40) * 0x1p-24f;
+        float v = work.onePoint ? 0.2f : float(b >> 8 & 0xffffff) * 0x1p-24f;
         if (u + v > 1) u = 1 - u, v = 1 - v;
         const Triangle& t = mesh.triangles[s.face];
         s.position = mesh.positions[t[0]] * (1 - u - v) + mesh.positions[t[1]] * u + mesh.positions[t[2]] * v;
+        if (work.barycentrics) s.position = {u, v, 0};
         s.value = float(a >> 40) * 0x1p-24f;
     }
 }
-
-struct Workload {
-    std::uint32_t side;
-    std::uint64_t samples;
-    std::size_t budget = 256u << 20;
-    bool onePoint = false;
-    int layers = 1;
-};
 
 struct Times {
     double recording = 0, finishing = 0;
@@ -98,7 +101,7 @@ Times run(const Workload& work, int threads) {
     Times times;
     std::atomic<double> processor{0};
     for (std::uint64_t done = 0; done < work.samples; done += kPortion) {
-        for (int i = 0; i < threads; ++i) fill(samples[i], meshes[0], done * 31 + std::uint64_t(i) + 1, work.onePoint);
+        for (int i = 0; i < threads; ++i) fill(samples[i], meshes[0], done * 31 + std::uint64_t(i) + 1, work);
         std::latch start(threads + 1);
         std::vector<std::thread> workers;
         for (int i = 0; i < threads; ++i)
@@ -107,7 +110,9 @@ Times run(const Workload& work, int threads) {
                 start.arrive_and_wait();
                 const double before = processorSeconds(CLOCK_THREAD_CPUTIME_ID);
                 for (const Sample& s : samples[i]) {
-                    const SurfacePoint at = surface.locate(0, s.face, s.position);
+                    const SurfacePoint at = work.barycentrics
+                                                ? surface.locate(0, s.face, Vec2f{s.position.x, s.position.y})
+                                                : surface.locate(0, s.face, s.position);
                     for (const SurfaceLayer& layer : layers) layer.add(at, s.value);
                 }
                 processor += processorSeconds(CLOCK_THREAD_CPUTIME_ID) - before;
@@ -154,14 +159,18 @@ void bench(const char* name, Workload work) {
 
 int main(int argc, char** argv) {
     constexpr std::uint32_t k100k = 224;  // 100,352 triangles
+    constexpr std::size_t kDefault = 256u << 20;
     bench("100k_triangles_5M", {k100k, 5000000});
     bench("100k_triangles_50M", {k100k, 50000000});
     bench("2_triangles_5M", {1, 5000000});
     bench("2_triangles_50M", {1, 50000000});
     bench("100k_budget_exhausted_5M", {k100k, 5000000, 2u << 20});
     bench("100k_budget_exhausted_50M", {k100k, 50000000, 6u << 20});
-    bench("one_point_5M", {1, 5000000, 256u << 20, true});
-    bench("100k_nine_layers_5M", {k100k, 5000000, 256u << 20, false, 9});
+    bench("100k_barycentrics_5M", {k100k, 5000000, kDefault, 1, false, true});
+    bench("2_barycentrics_5M", {1, 5000000, kDefault, 1, false, true});
+    bench("100k_budget_exhausted_barycentrics_5M", {k100k, 5000000, 2u << 20, 1, false, true});
+    bench("one_point_5M", {1, 5000000, kDefault, 1, true});
+    bench("100k_nine_layers_5M", {k100k, 5000000, kDefault, 9});
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
     benchmark::RunSpecifiedBenchmarks();

@@ -67,13 +67,13 @@ TEST(SurfaceRecorder, BeyondTheBudgetNoSampleIsLost) {
     for (const int threads : {1, 4})
         for (const std::size_t budget : {std::size_t(0), std::size_t(1) << 14, std::size_t(1) << 18, std::size_t(3) << 20}) {
             SCOPED_TRACE(budget);
-            Collection c({grid(200)}, {.budgetBytes = budget, .samplesPerDivision = 4});
-            inThreads(threads, [&](int i) { c.record(400000 / threads, 20 + unsigned(i)); });
+            Collection c({grid(100)}, {.budgetBytes = budget, .samplesPerDivision = 4});
+            inThreads(threads, [&](int i) { c.record(160000 / threads, 20 + unsigned(i)); });
             const SurfaceField field = c.recorder.finish();
-            EXPECT_EQ(field.counts.points, 400000u);
-            EXPECT_EQ(field.layers[0].samples, 400000u);
-            EXPECT_EQ(field.layers[0].total, 400000.0);
-            EXPECT_NEAR(integral(field, field.layers[0], c.meshes) / 400000, 1.0, 1e-5);
+            EXPECT_EQ(field.counts.points, 160000u);
+            EXPECT_EQ(field.layers[0].samples, 160000u);
+            EXPECT_EQ(field.layers[0].total, 160000.0);
+            EXPECT_NEAR(integral(field, field.layers[0], c.meshes) / 160000, 1.0, 1e-5);
             if (budget <= std::size_t(1) << 18) {
                 EXPECT_GT(field.counts.coarse, 0u);
             } else {
