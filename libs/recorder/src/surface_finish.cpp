@@ -107,96 +107,100 @@ struct Leaves {
     }
 };
 
-/// Hands the data of divided faces down.
+/// Hands the data of divided faces down. Two walks over a tree: the first adds up what is below each divided triangle,
+/// the second shares out. Only rows of divided triangles are kept, a quarter of all, so that most of the time goes into
+/// reading the nodes.
 class TreeWalk {
   public:
     TreeWalk(const SurfaceStore& store, const Columns& columns, Totals& totals)
         : store_(store), columns_(columns), totals_(totals), width_(columns.width),
-          even_(kEvenSharePart * double(store.options().samplesPerDivision)) {}
+          even_(kEvenSharePart * double(store.options().samplesPerDivision)),
+          shares_(std::size_t(kMaxSurfaceLevel + 1) * 8 * width_) {}
 
     /// A face that was divided or not, of so much area.
     void walk(SurfaceRef root, double area, Leaves& leaves) {
-        if (!root.isDivided()) {
+        below_.clear();
+        inner_.clear();
+        row_.assign(width_, 0.0);
+        addNode(store_, root.own(), 1, row_.data());
+        if (root.isDivided()) {
+            sumUp(root);
+        } else {
             totals_.add(store_, root.node());
-            leaves.bit(false);
-            leaves.areas.push_back(static_cast<float>(area));
-            leaves.rows.resize(leaves.rows.size() + width_);
-            addNode(store_, root.node(), 1, &leaves.rows[leaves.rows.size() - width_]);
-            return;
         }
-        list(root);
-        sumUp();
-        handDown(area, leaves);
+        next_ = 0;
+        handDown(root, row_.data(), area, 0, leaves);
     }
 
   private:
-    struct Item { SurfaceRef ref; const SurfaceNode* node; std::uint32_t parent, level; std::uint32_t children[4]; };
-
-    /// All nodes in pre-order.
-    void list(SurfaceRef root) {
-        items_.clear();
-        stack_.assign(1, {root, root.own(), 0, 0, {}});
-        while (!stack_.empty()) {
-            const auto index = static_cast<std::uint32_t>(items_.size());
-            Item item = stack_.back();
-            stack_.pop_back();
-            totals_.add(store_, item.node);
-            if (index > 0) {
-                Item& parent = items_[item.parent];
-                parent.children[item.children[0]] = index;  // until now: which of the four it is
-            }
-            if (item.ref.isDivided())
-                for (std::uint32_t i = 4; i-- > 0;) {
-                    const SurfaceRef child = item.ref.child(i, store_.nodeBytes());
-                    stack_.push_back({child, child.own(), index, item.level + 1, {i}});
-                }
-            items_.push_back(item);
-        }
+    void prefetchChildren(SurfaceRef ref) const {
+        for (std::uint32_t k = 0; k < 4; ++k)
+            __builtin_prefetch(ref.kind() == SurfaceRef::inner ? ref.children()[k].node() : ref.end(k, store_.nodeBytes()));
     }
 
-    /// What each node and all below it hold: how the samples decide about shares.
-    void sumUp() {
-        below_.assign(items_.size() * width_, 0.0);
-        for (std::size_t i = items_.size(); i-- > 0;) {
-            double* row = &below_[i * width_];
-            addNode(store_, items_[i].node, 1, row);
-            if (i == 0) break;
-            double* parent = &below_[items_[i].parent * std::size_t(width_)];
-            for (std::uint32_t c = 0; c < width_; ++c) parent[c] += row[c];
+    /// A divided triangle: appends to `below_` what its children and all below them hold. Returns the place of its row.
+    std::size_t sumUp(SurfaceRef ref) {
+        const std::size_t index = inner_.size();
+        inner_.push_back(0);
+        below_.resize(below_.size() + width_);
+        totals_.add(store_, ref.own());
+        prefetchChildren(ref);
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const SurfaceRef child = ref.child(k, store_.nodeBytes());
+            if (child.isDivided()) {
+                const std::size_t of = sumUp(child);
+                addNode(store_, child.own(), 1, &below_[index * width_]);
+                for (std::uint32_t c = 0; c < width_; ++c) below_[index * width_ + c] += below_[of * width_ + c];
+            } else {
+                totals_.add(store_, child.node());
+                addNode(store_, child.node(), 1, &below_[index * width_]);
+            }
         }
+        inner_[index] = static_cast<std::uint32_t>(inner_.size());  // the first one behind its subtree
+        return index;
     }
 
-    void handDown(double area, Leaves& leaves) {
-        inherited_.assign(items_.size() * width_, 0.0);
-        for (std::size_t i = 0; i < items_.size(); ++i) {
-            const Item& item = items_[i];
-            double* row = &inherited_[i * width_];
-            addNode(store_, item.node, 1, row);
-            const bool divided = item.ref.isDivided();
-            if (item.level < kMaxSurfaceLevel) leaves.bit(divided);
-            if (divided) {
-                share(item, row);
-                continue;
-            }
-            leaves.areas.push_back(static_cast<float>(std::ldexp(area, -2 * static_cast<int>(item.level))));
+    /// `row`: what a triangle holds and has inherited.
+    void handDown(SurfaceRef ref, const double* row, double area, std::uint32_t level, Leaves& leaves) {
+        if (level < kMaxSurfaceLevel) leaves.bit(ref.isDivided());
+        if (!ref.isDivided()) {
+            leaves.areas.push_back(static_cast<float>(std::ldexp(area, -2 * static_cast<int>(level))));
             leaves.rows.insert(leaves.rows.end(), row, row + width_);
+            return;
         }
+        ++next_;  // the row of this triangle in below_
+        double* held = &shares_[std::size_t(level) * 8 * width_];  // per child: its own and all below it
+        double* given = held + 4 * width_;                         // per child: its own and its share
+        prefetchChildren(ref);
+        std::fill(held, held + 8 * width_, 0.0);
+        std::size_t at = next_;
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const SurfaceRef child = ref.child(k, store_.nodeBytes());
+            addNode(store_, child.own(), 1, held + k * width_);
+            std::copy_n(held + k * width_, width_, given + k * width_);
+            if (!child.isDivided()) continue;
+            for (std::uint32_t c = 0; c < width_; ++c) held[k * width_ + c] += below_[at * width_ + c];
+            at = inner_[at];
+        }
+        share(row, held, given);
+        for (std::uint32_t k = 0; k < 4; ++k)
+            handDown(ref.child(k, store_.nodeBytes()), given + k * width_, area, level + 1, leaves);
     }
 
     /// By the density of the samples below; a layer that has few is led by the points, and these by area.
-    void share(const Item& item, const double* row) {
+    void share(const double* row, const double* held, double* given) const {
         double points[4], pointSum = 0;
-        for (int k = 0; k < 4; ++k) pointSum += points[k] = below_[item.children[k] * std::size_t(width_)];
+        for (int k = 0; k < 4; ++k) pointSum += points[k] = held[k * width_];
         for (double& p : points) p = (p + even_ / 4) / (pointSum + even_);
-        for (int k = 0; k < 4; ++k) inherited_[item.children[k] * std::size_t(width_)] += row[0] * points[k];
+        for (int k = 0; k < 4; ++k) given[k * width_] += row[0] * points[k];
         for (std::size_t layer = 0; layer < columns_.first.size(); ++layer) {
             const std::uint32_t first = columns_.first[layer];
             double sum = 0;
-            for (const std::uint32_t child : item.children) sum += below_[child * std::size_t(width_) + first];
+            for (int k = 0; k < 4; ++k) sum += held[k * width_ + first];
             for (int k = 0; k < 4; ++k) {
-                const std::size_t child = item.children[k] * std::size_t(width_) + first;
-                const double part = (below_[child] + even_ * points[k]) / (sum + even_);
-                for (std::uint32_t c = 0; c <= columns_.channels[layer]; ++c) inherited_[child + c] += row[first + c] * part;
+                const double part = (held[k * width_ + first] + even_ * points[k]) / (sum + even_);
+                double* to = given + k * width_ + first;
+                for (std::uint32_t c = 0; c <= columns_.channels[layer]; ++c) to[c] += row[first + c] * part;
             }
         }
     }
@@ -204,10 +208,12 @@ class TreeWalk {
     const SurfaceStore& store_;
     const Columns& columns_;
     Totals& totals_;
-    std::uint32_t width_;
+    std::size_t width_;
     double even_;
-    std::vector<Item> items_, stack_;
-    std::vector<double> below_, inherited_;
+    std::vector<double> below_;         ///< a row per divided triangle, in pre-order
+    std::vector<std::uint32_t> inner_;  ///< per divided triangle: the first one that is not below it
+    std::vector<double> shares_, row_;
+    std::size_t next_ = 0;
 };
 
 /// All refined faces of a mesh.
@@ -263,6 +269,7 @@ class LazyNeighbours {
 void appendMeans(const Leaves& leaves, std::uint32_t width, std::uint32_t first, std::uint32_t channels,
                  LazyNeighbours& neighbours, std::vector<float>& values) {
     const std::size_t begin = values.size();
+    values.reserve(begin + leaves.areas.size() * channels);
     bool gaps = false;
     for (std::size_t face = 0; face < leaves.areas.size(); ++face) {
         const double* row = &leaves.rows[face * width + first];
@@ -277,6 +284,9 @@ void appendDensities(const Leaves& leaves, std::uint32_t width, std::uint32_t fi
                      std::vector<float>& values) {
     std::vector<double> sums;
     std::vector<float> counts;
+    sums.reserve(leaves.areas.size());
+    counts.reserve(leaves.areas.size());
+    values.reserve(values.size() + leaves.areas.size());
     for (std::size_t face = 0; face < leaves.areas.size(); ++face) {
         counts.push_back(static_cast<float>(leaves.rows[face * width + first]));
         sums.push_back(leaves.rows[face * width + first + 1]);
@@ -322,6 +332,7 @@ SurfaceField makeField(const SurfaceStore& store) {
                 case LayerKind::density: appendDensities(leaves, columns.width, first, neighbours, values[i]); break;
             }
         }
+        points.reserve(points.size() + leaves.areas.size());
         for (std::size_t face = 0; face < leaves.areas.size(); ++face)
             points.push_back(static_cast<float>(leaves.rows[face * columns.width]));
         field.meshes[mesh].faceCount = static_cast<std::uint32_t>(leaves.areas.size());
