@@ -133,9 +133,17 @@ class TreeWalk {
     }
 
   private:
+    /// All that the children lead to, before the first of them is looked at.
     void prefetchChildren(SurfaceRef ref) const {
-        for (std::uint32_t k = 0; k < 4; ++k)
-            __builtin_prefetch(ref.kind() == SurfaceRef::inner ? ref.children()[k].node() : ref.end(k, store_.nodeBytes()));
+        if (ref.kind() != SurfaceRef::inner) return;  // its children were fetched with it
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const SurfaceRef child = ref.children()[k];
+            const auto* bytes = reinterpret_cast<const std::byte*>(child.node());
+            const std::size_t size = child.kind() == SurfaceRef::leaves  ? 4 * store_.nodeBytes()
+                                     : child.kind() == SurfaceRef::inner ? 4 * sizeof(SurfaceRef)
+                                                                         : store_.nodeBytes();
+            for (std::size_t line = 0; line < size; line += 64) __builtin_prefetch(bytes + line);
+        }
     }
 
     /// A divided triangle: appends to `below_` what its children and all below them hold. Returns the place of its row.
