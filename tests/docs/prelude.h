@@ -4,6 +4,7 @@
 #include "emca/core/seed_map.h"
 #include "emca/recorder/handles.h"
 #include "emca/recorder/recorder.h"
+#include "emca/recorder/surface_recorder.h"
 #include "emca/server/server.h"
 
 struct MyVector { float x, y, z; };
@@ -24,7 +25,7 @@ inline int sample = 0, bounce = 0, maxBounces = 8;
 inline std::uint64_t masterSeed = 0;
 inline void fail(const std::string&) {}
 
-class MyRenderer final : public emca::Renderer {
+class MyRenderer : public emca::Renderer {
   public:
     emca::RendererInfo info() const override { return {}; }
     emca::Camera camera() const override { return {}; }
