@@ -113,7 +113,7 @@ class SurfaceCursor {
 
 /// Collects 3D data on surfaces while a renderer runs: named layers, all on one adaptive 1-to-4 subdivision of the meshes.
 ///
-///     SurfaceRecorder recorder(meshes);
+///     SurfaceRecorder recorder(meshes);                      // a std::vector<Mesh>, or views
 ///     const SurfaceLayer density = *recorder.addLayer({"intersection density", LayerKind::density, "1/m^2", "…"});
 ///     …                                                      // in every thread, per path or tile:
 ///     SurfaceCursor& surface = recorder.cursor();
@@ -124,7 +124,8 @@ class SurfaceCursor {
 ///
 /// Threads write what they add to blocks of their own. A face belongs to one of many shards; a full block is handed to
 /// its shard, and whichever thread finds the shard free applies all blocks waiting there, while the others go on. So no
-/// thread waits for another, nodes are updated without atomic operations, and counts are exact.
+/// thread waits for another, nodes are updated without atomic operations, and counts are exact. (Blocks are bounded: a
+/// thread all of whose blocks still wait at busy shards works for other shards, or gives up its time slice.)
 ///
 /// Memory: nothing before the first layer; a face's storage begins with its first point. Beyond the budget, faces do not
 /// divide any more, and faces without storage share bins with their neighbours in the mesh (counted as coarse); no
