@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -16,6 +17,17 @@ Result<std::uint64_t> parseWhole(const std::string& what, const std::string& tex
     if (whole && value >= smallest && value <= largest) return value;
     return Error{ErrorCode::invalidArgument,
                  fmt::format("{} is \"{}\"; it must be a whole number from {} to {}.", what, text, smallest, largest)};
+}
+
+std::vector<std::string> splitList(const std::string& text) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::size_t first = text.find_first_not_of(' ', begin), last = text.find_last_not_of(' ', end - 1);
+        if (end > begin && first < end) words.push_back(text.substr(first, last + 1 - first));
+        begin = end + 1;
+    }
+    return words;
 }
 
 Result<Pixel> parsePixel(const std::string& x, const std::string& y) {

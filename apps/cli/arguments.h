@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emca/core/pixel.h"
 #include "emca/core/result.h"
@@ -13,6 +14,8 @@ namespace emca::cli {
 /// Errors: invalidArgument, naming `what` and the range.
 Result<std::uint64_t> parseWhole(const std::string& what, const std::string& text, std::uint64_t smallest,
                                  std::uint64_t largest);
+/// The words between commas, without blanks around them; empty ones are left out.
+std::vector<std::string> splitList(const std::string& text);
 Result<Pixel> parsePixel(const std::string& x, const std::string& y);
 
 /// Options that name how to render; empty: as the scene says.

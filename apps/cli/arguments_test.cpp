@@ -50,5 +50,13 @@ TEST(ProgressLine, FitsIntoItsColumns) {
     EXPECT_NE(progressLine("r", 0.25, 30, 80).find("1 min 30 s left"), std::string::npos);
 }
 
+TEST(Arguments, Lists) {
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(splitList("a"), Words{"a"});
+    EXPECT_EQ(splitList("path depth, MIS weight ,b"), (Words{"path depth", "MIS weight", "b"}));
+    EXPECT_EQ(splitList(""), Words{});
+    EXPECT_EQ(splitList(", ,a,"), Words{"a"});
+}
+
 }  // namespace
 }  // namespace emca::cli

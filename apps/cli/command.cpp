@@ -22,6 +22,7 @@ constexpr const char* kExamples =
     "  emca pixel localhost:50013 117 64\n"
     "  emca pixel localhost:50013 117 64 --json | jq '.paths[] | select(.depth > 5) | .estimate'\n"
     "  emca pixel localhost:50013 117 64 --against cornell.exr\n"
+    "  emca layers localhost:50013 --list\n"
     "\n"
     "Exit codes: 0 ok, 2 usage, 3 input, 4 connection, 5 renderer, 130 interrupted.";
 

@@ -7,7 +7,8 @@
 namespace emca::cli {
 
 std::span<const AddCommand> commands() {
-    static constexpr std::array<AddCommand, 3> kCommands{addInfoCommand, addRenderCommand, addPixelCommand};
+    static constexpr std::array<AddCommand, 4> kCommands{addInfoCommand, addRenderCommand, addPixelCommand,
+                                                         addLayersCommand};
     return kCommands;
 }
 

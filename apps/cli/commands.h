@@ -8,5 +8,6 @@ namespace emca::cli {
 void addInfoCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addPixelCommand(CLI::App& app, Run& run);
+void addLayersCommand(CLI::App& app, Run& run);
 
 }  // namespace emca::cli

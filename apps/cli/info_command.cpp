@@ -31,9 +31,19 @@ Json infoJson(const client::ServerInfo& info) {
     out["meshes"] = info.meshes;
     out["capabilities"] = info.capabilities;
     out["tools"] = info.tools;
+    out["layers"] = Json::array();
+    for (const LayerDescription& layer : info.layers) {
+        Json entry;
+        entry["name"] = layer.name;
+        entry["kind"] = name(layer.kind);
+        entry["unit"] = layer.unit;
+        entry["description"] = layer.description;
+        out["layers"].push_back(std::move(entry));
+    }
     out["latestRender"] = info.latestRender == 0 ? Json(nullptr) : Json(info.latestRender);
     out["limits"]["spp"] = info.maximumSamplesPerPixel;
     out["limits"]["pixelsPerTrace"] = info.maximumPixelsPerTrace;
+    if (!info.layers.empty()) out["limits"]["surfaceBudget"] = info.maximumSurfaceBudget;
     return out;
 }
 
@@ -51,6 +61,9 @@ std::string infoText(const client::ServerInfo& info) {
     table.add({"latest render", info.latestRender == 0 ? "none yet" : fmt::format("{}", info.latestRender)});
     table.add({"capabilities", joined(info.capabilities)});
     table.add({"tools", joined(info.tools)});
+    std::vector<std::string> layers;
+    for (const LayerDescription& layer : info.layers) layers.push_back(layer.name);
+    table.add({"surface layers", joined(layers)});
     table.add(
         {"limits", fmt::format("{} spp, {} pixels a trace", info.maximumSamplesPerPixel, info.maximumPixelsPerTrace)});
     return table.text();

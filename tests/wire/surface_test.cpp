@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <set>
 #include <thread>
 
-#include "emca/recorder/surface_recorder.h"
+#include "layered_renderer.h"
 #include "raw_client.h"
 #include "served.h"
 
@@ -14,69 +13,6 @@ namespace {
 
 using client::RenderOptions;
 using client::RequestObserver;
-
-/// Each pixel adds to two triangles of a square, from two threads; all sums are known.
-class LayeredRenderer : public FakeRenderer {
-  public:
-    std::vector<LayerDescription> offered{{"hits", LayerKind::density, "1/m^2", "Adds 1 for each pixel."},
-                                          {"colors", LayerKind::meanColor, "W/(sr m^2)", "Adds the pixel's colour."},
-                                          {"column", LayerKind::mean, "", "Adds the pixel's column."},
-                                          {"row sum", LayerKind::sum, "", "Adds the pixel's row."}};
-    bool addsItsOwn = false;
-    int pointsPerPixel = 20;
-    std::atomic<int> layeredRenders{0}, plainRenders{0}, meshCalls{0};
-    std::atomic<std::uint64_t> budget{0};
-
-    LayeredRenderer() {
-        Mesh square;
-        square.name = "square";
-        square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-        square.triangles = {{0, 1, 2}, {0, 2, 3}};
-        scene.push_back(square);
-    }
-
-    std::vector<Mesh> meshes() const override {
-        ++const_cast<LayeredRenderer*>(this)->meshCalls;
-        return scene;
-    }
-    std::vector<LayerDescription> surfaceLayers() const override { return offered; }
-    Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override {
-        ++plainRenders;
-        return FakeRenderer::renderImage(settings, monitor);
-    }
-    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
-                                                RequestMonitor& monitor) override {
-        ++layeredRenders;
-        if (addsItsOwn) {
-            const auto own = surface.addLayer({"own", LayerKind::sum, "", "Adds 2 for each pixel."});
-            if (!own) return own.error();
-        }
-        std::thread other([&] { collect(surface, 0, 6); });
-        collect(surface, 6, 12);
-        other.join();
-        return FakeRenderer::renderImage(settings, monitor);
-    }
-
-  private:
-    void collect(SurfaceRecorder& surface, std::uint32_t firstRow, std::uint32_t lastRow) const {
-        const SurfaceLayer hits = surface.find("hits"), colors = surface.find("colors"), column = surface.find("column"),
-                           rows = surface.find("row sum"), own = surface.find("own");
-        SurfaceCursor& cursor = surface.cursor();
-        for (std::uint32_t y = firstRow; y < lastRow; ++y) {
-            for (std::uint32_t x = 0; x < 16; ++x) {
-                for (int i = 0; i < pointsPerPixel; ++i) {
-                    const float px = (static_cast<float>(x) + 0.25f) / 16, py = (static_cast<float>(y) + 0.5f) / 12;
-                    const SurfacePoint at = cursor.locate(1, px > py ? 0 : 1, Vec3f{px, py, 0});
-                    hits.add(at);
-                    colors.add(at, Color(0.25f, 0.5f, 1));
-                    column.add(at, 2.f);
-                    rows.add(at, static_cast<float>(y));
-                    own.add(at, 2.f);
-                }
-            }
-        }
-    }
-};
 
 struct LayersServed {
     LayeredRenderer renderer;
@@ -149,6 +85,7 @@ TEST(SurfaceLayers, EveryValueArrives) {
     EXPECT_EQ(render->layerSamples, std::vector<std::uint64_t>(4, kPoints));
     EXPECT_EQ(render->surfaceCounts.points, kPoints);
     EXPECT_EQ(render->surfaceCounts.coarse, 0u);
+    EXPECT_GT(render->surfaceFaces, 2u);
     EXPECT_EQ(render->surfaceCounts.budgetBytes, 256u << 20);
 
     std::vector<double> progress;
@@ -158,6 +95,7 @@ TEST(SurfaceLayers, EveryValueArrives) {
     ASSERT_OK(field);
     ASSERT_OK(validate(*field, *meshes));
     EXPECT_EQ(field->counts, render->surfaceCounts);
+    EXPECT_EQ(field->faceCount(), render->surfaceFaces);
     ASSERT_EQ(field->meshes.size(), 2u);
     EXPECT_EQ(field->meshes[0].faceCount, 0u) << "nothing landed on the triangle";
     EXPECT_GT(field->meshes[1].faceCount, 2u) << "so many points divide the square";

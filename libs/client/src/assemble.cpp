@@ -96,6 +96,7 @@ Result<void> ImageAssembler::begin(const protocol::RenderResult& result) {
         render_.layerSamples.push_back(layer.samples);
     }
     render_.surfaceCounts = result.surfaceCounts;
+    render_.surfaceFaces = result.surfaceFaces;
     render_.image.color = Image(width_, height_, {"R", "G", "B"});
     render_.image.samples = Image(width_, height_, {"samples"});
     return {};

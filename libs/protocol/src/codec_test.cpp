@@ -155,9 +155,10 @@ TEST(Codec, SurfaceLayersArrive) {
     EXPECT_EQ(request.surfaceBudget, 1ull << 40);
     EXPECT_EQ(request.maximumChunkBytes, 9u);
 
-    const auto rendered = std::get<RenderResult>(throughTheWire({1, RenderResult{8, {}, 1, 2, 1, {hits}, counts}}).body);
+    const auto rendered = std::get<RenderResult>(throughTheWire({1, RenderResult{8, {}, 1, 2, 1, {hits}, counts, 1ull << 27}}).body);
     EXPECT_EQ(rendered.layers, std::vector<Layer>{hits});
     EXPECT_EQ(rendered.surfaceCounts, counts);
+    EXPECT_EQ(rendered.surfaceFaces, 1ull << 27);
 
     const auto asked = std::get<SurfaceRequest>(throughTheWire({1, SurfaceRequest{{"a"}, {}, 5, 77, 4096}}).body);
     EXPECT_EQ(asked.layers, std::vector<std::string>{"a"});

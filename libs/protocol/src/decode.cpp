@@ -110,7 +110,7 @@ PreviewTile decodeBody(Decoder& d, const wire::PreviewTile& m) {
 }
 RenderResult decodeBody(Decoder& d, const wire::RenderResult& m) {
     return {m.id(), settings(d, m.settings()), m.seconds(), m.width(), m.height(), decodeLayers(d, m.layers()),
-            decodeCounts(m.surface_counts())};
+            decodeCounts(m.surface_counts()), m.surface_faces()};
 }
 ImageRows decodeBody(Decoder& d, const wire::ImageRows& m) {
     ImageRows rows{m.first_row(), m.row_count(), d.view<Color>(m.colors()), d.view<float>(m.samples()),

@@ -92,7 +92,7 @@ Encoded encodeBody(Builder& b, const RenderResult& m) {
     const auto layers = encodeLayers(b, m.layers);
     const auto counts = toWire(m.surfaceCounts);
     return body(wire::CreateRenderResult(b, m.id, settings, m.seconds, m.width, m.height, layers,
-                                         m.layers.empty() ? nullptr : &counts));
+                                         m.layers.empty() ? nullptr : &counts, m.surfaceFaces));
 }
 Encoded encodeBody(Builder& b, const ImageRows& m) {
     const auto colors = column(b, m.colors);

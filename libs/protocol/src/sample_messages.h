@@ -195,7 +195,7 @@ inline std::vector<Message> everyMessage() {
     std::vector<Body> bodies{Hello{"client 1", 1, 3, {"x"}, "token"}, Welcome{"server 1", 1, {"y"}, 1u << 24}, Refusal{error, 1, 2},
                              Cancel{}, Progress{0.5f, true}, Failure{error}, Done{}, InfoRequest{}, info, CameraRequest{}, camera,
                              SceneRequest{1u << 20}, SceneChunk{3, 9, 4, {part, part}, true}, RenderRequest{settings, true, 1u << 20, {"hits", "radiance"}, 1ull << 33},
-                             PreviewTile{{0, 0, 2, 1}, std::vector<Color>{{1, 2, 3}, {4, 5, 6}}}, RenderResult{8, settings, 1.5, 2, 1, {density}, counts},
+                             PreviewTile{{0, 0, 2, 1}, std::vector<Color>{{1, 2, 3}, {4, 5, 6}}}, RenderResult{8, settings, 1.5, 2, 1, {density}, counts, 99},
                              ImageRows{0, 1, std::vector<Color>(2), std::vector<float>{4, 5}, std::vector<Color>(2), true}, trace,
                              traceResult(1, 5), SurfaceRequest{{"density"}, settings, 5, 8, 1u << 20}, ToolRequest{"tool", bytes}, ToolResult{bytes},
                              QuitRequest{}, SurfaceResult{8, {density, radiance}, counts, 2, 9, 2},

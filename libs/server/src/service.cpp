@@ -215,12 +215,13 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
         surface = std::move(collected).value();
     }
     const auto kept = images_.add(settings, seconds.count(), std::move(image).value());
-    protocol::RenderResult result{kept->id, kept->settings, kept->seconds, info_.width, info_.height, {}, {}};
+    protocol::RenderResult result{kept->id, kept->settings, kept->seconds, info_.width, info_.height, {}, {}, 0};
     if (surface) {
         surface->renderId = kept->id;
         surface->settings = kept->settings;
         result.layers = collectedLayers(surface->field);
         result.surfaceCounts = surface->field.counts;
+        result.surfaceFaces = surface->field.faceCount();
         surfaces_.add(std::move(surface));
     }
     request->client->send(*request, std::move(result));

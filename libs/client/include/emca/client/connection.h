@@ -64,6 +64,7 @@ struct Render {
     RenderedImage image;
     std::vector<LayerDescription> layers;  ///< collected on surfaces meanwhile: Connection::surface fetches them
     SurfaceCounts surfaceCounts;           ///< all 0 without layers
+    std::uint64_t surfaceFaces = 0;        ///< refined faces that have values
     std::vector<std::uint64_t> layerSamples;  ///< values added to each of them; exact counts
 };
 

@@ -117,6 +117,7 @@ struct RenderResult {
     std::uint32_t width = 0, height = 0;
     std::vector<Layer> layers;                       ///< that were collected; a SurfaceRequest fetches them
     SurfaceCounts surfaceCounts;
+    std::uint64_t surfaceFaces = 0;                  ///< refined ones, that have values
 };
 struct ImageRows {
     std::uint32_t firstRow = 0, rowCount = 0;
