@@ -5,6 +5,7 @@
 
 #include "base/qt_compat.h"
 #include "emca/analysis/format.h"
+#include "emca/analysis/surface_name.h"
 #include "emca/core/event.h"
 
 namespace emca::explorer {
@@ -64,9 +65,9 @@ std::optional<Value> coreValue(const PathSet& paths, const Entry& entry) {
     return std::nullopt;
 }
 
-QString surfaceText(const PathSet& paths, const Entry& entry) {
+QString surfaceText(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes) {
     const std::optional<PathSet::Surface> surface = paths.surface(entry.owner);
-    return surface ? QStringLiteral("mesh %1, face %2").arg(surface->mesh).arg(surface->face) : QString();
+    return surface ? toQString(analysis::surfaceName(*surface, meshes)) : QString();
 }
 
 /// What belongs to the value of some kinds.
@@ -92,10 +93,11 @@ QString withNote(const QString& value, const QString& note) {
     return note.isEmpty() ? value : value + QStringLiteral(", ") + note;
 }
 
-void writeEntries(const PathSet& paths, const std::vector<Entry>& entries, int indent, QString& out) {
+void writeEntries(const PathSet& paths, const std::vector<Entry>& entries, std::span<const Mesh> meshes, int indent,
+                  QString& out) {
     for (const Entry& entry : entries)
         out += QString(indent, QLatin1Char(' ')) + keyText(paths, entry) + QStringLiteral(": ") +
-               fullValueText(paths, entry) + QLatin1Char('\n');
+               fullValueText(paths, entry, meshes) + QLatin1Char('\n');
 }
 
 }  // namespace
@@ -162,14 +164,14 @@ QString keyText(const PathSet& paths, const Entry& entry) {
     return {};
 }
 
-QString valueText(const PathSet& paths, const Entry& entry) {
-    if (entry.kind == Kind::surface) return surfaceText(paths, entry);
+QString valueText(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes) {
+    if (entry.kind == Kind::surface) return surfaceText(paths, entry, meshes);
     const std::optional<Value> value = coreValue(paths, entry);
     return withNote(value ? toQString(analysis::formatValue(*value)) : QString(), noteOf(paths, entry, false));
 }
 
-QString fullValueText(const PathSet& paths, const Entry& entry) {
-    if (entry.kind == Kind::surface) return surfaceText(paths, entry);
+QString fullValueText(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes) {
+    if (entry.kind == Kind::surface) return surfaceText(paths, entry, meshes);
     const std::optional<Value> value = coreValue(paths, entry);
     return withNote(value ? toQString(analysis::formatValueFull(*value)) : QString(), noteOf(paths, entry, true));
 }
@@ -194,8 +196,8 @@ ValueCells valueCells(const Value& value) {
     return cells;
 }
 
-ValueCells valueCells(const PathSet& paths, const Entry& entry) {
-    if (entry.kind == Kind::surface) return {{}, surfaceText(paths, entry), {}};
+ValueCells valueCells(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes) {
+    if (entry.kind == Kind::surface) return {{}, surfaceText(paths, entry, meshes), {}};
     const std::optional<Value> value = coreValue(paths, entry);
     ValueCells cells = value ? valueCells(*value) : ValueCells();
     cells.note = noteOf(paths, entry, false);
@@ -250,23 +252,28 @@ bool hasNonFinite(const Value& value) {
 
 bool isNonFinite(Color color) { return !isFinite(color); }
 
-QString vertexAsText(const PathSet& paths, Index vertex, int indent) {
+QString vertexAsText(const PathSet& paths, Index vertex, std::span<const Mesh> meshes, int indent) {
     QString out = QString(indent, QLatin1Char(' ')) + vertexText(paths, vertex) + QLatin1Char('\n');
     std::vector<Entry> entries;
     appendVertexEntries(paths, vertex, {}, entries);
-    writeEntries(paths, entries, indent + 2, out);
+    writeEntries(paths, entries, meshes, indent + 2, out);
     return out;
 }
 
-QString pathAsText(const PathSet& paths, Index path) {
+QString pathAsText(const PathSet& paths, Index path, std::span<const Mesh> meshes) {
     QString out = pathText(paths, path, true) + QLatin1Char('\n');
     std::vector<Entry> entries;
     appendPathInfo(paths, path, {}, entries);
     appendPathData(paths, path, {}, entries);
-    writeEntries(paths, entries, 2, out);
+    writeEntries(paths, entries, meshes, 2, out);
     const IndexRange vertices = paths.vertices(path);
-    for (Index vertex = vertices.first; vertex < vertices.last; ++vertex) out += vertexAsText(paths, vertex, 2);
+    for (Index vertex = vertices.first; vertex < vertices.last; ++vertex) out += vertexAsText(paths, vertex, meshes, 2);
     return out;
+}
+
+std::span<const Mesh> meshesOf(const client::Dataset& dataset) {
+    const auto& meshes = dataset.meshes();
+    return meshes ? std::span<const Mesh>(*meshes) : std::span<const Mesh>();
 }
 
 }  // namespace emca::explorer

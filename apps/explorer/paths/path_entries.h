@@ -3,9 +3,12 @@
 #include <QString>
 #include <QStringList>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "emca/client/dataset.h"
+#include "emca/core/mesh.h"
 #include "emca/core/path_set.h"
 
 namespace emca::explorer {
@@ -47,17 +50,18 @@ void appendVertexEntries(const PathSet& paths, Index vertex, const QString& filt
 
 /// Name of the quantity: "position", "light sampling", or the key of user data.
 QString keyText(const PathSet& paths, const Entry& entry);
-/// On one line, four significant digits.
-QString valueText(const PathSet& paths, const Entry& entry);
+/// On one line, four significant digits. \param meshes  of the scene, for the names of surfaces; empty: not known
+QString valueText(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes = {});
 /// In full, for copying: what is read back has the same bits.
-QString fullValueText(const PathSet& paths, const Entry& entry);
+QString fullValueText(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes = {});
 /// The same in parts, so that columns of numbers align: numbers of one to four components, or else a text; and a note
 /// ("MIS 0.5000": the weight, "visible").
 struct ValueCells {
     QStringList numbers;
     QString text, note;
+    friend bool operator==(const ValueCells&, const ValueCells&) = default;
 };
-ValueCells valueCells(const PathSet& paths, const Entry& entry);
+ValueCells valueCells(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes = {});
 /// Cells of a value without a note.
 ValueCells valueCells(const Value& value);
 /// For a swatch; nothing if the value is no colour.
@@ -73,7 +77,10 @@ bool hasNonFinite(const Value& value);
 bool isNonFinite(Color color);
 
 /// A path, its vertices and all their values as indented lines, with values in full.
-QString pathAsText(const PathSet& paths, Index path);
-QString vertexAsText(const PathSet& paths, Index vertex, int indent = 0);
+QString pathAsText(const PathSet& paths, Index path, std::span<const Mesh> meshes = {});
+QString vertexAsText(const PathSet& paths, Index vertex, std::span<const Mesh> meshes = {}, int indent = 0);
+
+/// Those of the scene that is connected; none if it did not come.
+std::span<const Mesh> meshesOf(const client::Dataset& dataset);
 
 }  // namespace emca::explorer

@@ -67,12 +67,17 @@ PathTree::PathTree(client::Dataset& dataset, client::Selection& selection, Theme
       find_(new QLineEdit),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
+                            if (parts & client::DatasetPart::meshes) {
+                                model_->setMeshes(dataset_.meshes());
+                                view_->viewport()->update();
+                            }
                             if (parts & client::DatasetPart::currentTrace) reload();
                         }),
       selectionListening_(selection, [this](std::uint32_t parts) {
           if (parts & (SelectionPart::paths | SelectionPart::currentPath | SelectionPart::vertex)) follow();
       }) {
     view_->setItemDelegate(delegate_);
+    model_->setMeshes(dataset_.meshes());
     buildHeader();
     connect(view_, &PathTreeView::rowsChosen, this, &PathTree::adopt);
     connect(view_, &QWidget::customContextMenuRequested, this, &PathTree::showMenu);
@@ -340,9 +345,9 @@ void PathTree::copyAsText() {
     const PathSet& paths = model_->paths();
     const std::optional<Index> vertex = state.vertex ? findVertex(paths, *state.vertex) : std::nullopt;
     if (vertex && state.paths.size() == 1) {
-        text = vertexAsText(paths, *vertex);
+        text = vertexAsText(paths, *vertex, model_->meshes());
     } else {
-        for (const Index path : findPaths(paths, state.paths)) text += pathAsText(paths, path);
+        for (const Index path : findPaths(paths, state.paths)) text += pathAsText(paths, path, model_->meshes());
     }
     if (!text.isEmpty()) QApplication::clipboard()->setText(text);
 }

@@ -371,16 +371,16 @@ QVariant PathTreeModel::entryData(const Entry& entry, int column, int role) cons
     switch (role) {
         case Qt::DisplayRole:
             if (column == kItem) return keyText(paths_, entry);
-            if (column == kValue) return valueText(paths_, entry);
+            if (column == kValue) return valueText(paths_, entry, meshes());
             return {};
         case Qt::ToolTipRole:
-            return keyText(paths_, entry) + QStringLiteral(": ") + fullValueText(paths_, entry);
+            return keyText(paths_, entry) + QStringLiteral(": ") + fullValueText(paths_, entry, meshes());
         case kFullTextRole:
-            return fullValueText(paths_, entry);
+            return fullValueText(paths_, entry, meshes());
         case kNumbersRole:
-            return valueCells(paths_, entry).numbers;
+            return valueCells(paths_, entry, meshes()).numbers;
         case kNoteRole:
-            return column == kValue ? valueCells(paths_, entry).note : QString();
+            return column == kValue ? valueCells(paths_, entry, meshes()).note : QString();
         case kToneRole:
             return int(toneOf(paths_, entry));
         case kColorRole: {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <QAbstractItemModel>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "emca/core/path_set.h"
@@ -50,6 +52,9 @@ class PathTreeModel : public QAbstractItemModel {
 
     /// Shows paths of a set: all, or those at the positions given (any order, each once). Resets the model.
     void setPaths(PathSet paths, std::optional<std::vector<Index>> shown = std::nullopt);
+    /// Those of the scene, for the names of surfaces; null: not known. Views have to be drawn again, no row changes.
+    void setMeshes(std::shared_ptr<const std::vector<Mesh>> meshes) { meshes_ = std::move(meshes); }
+    std::span<const Mesh> meshes() const { return meshes_ ? std::span<const Mesh>(*meshes_) : std::span<const Mesh>(); }
     /// Only rows of values whose key contains the text (any case); paths and vertices stay. Resets the model.
     void setFilter(const QString& filter);
     const QString& filter() const { return filter_; }
@@ -103,6 +108,7 @@ class PathTreeModel : public QAbstractItemModel {
     QVariant entryData(const Entry& entry, int column, int role) const;
 
     PathSet paths_;
+    std::shared_ptr<const std::vector<Mesh>> meshes_;
     std::vector<Index> shown_;
     std::vector<int> rowOfPath_;  ///< -1 if not shown
     bool several_ = false;

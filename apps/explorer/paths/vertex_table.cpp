@@ -5,13 +5,13 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QMenu>
 #include <QTableView>
 #include <QToolButton>
 
 #include "base/path_ids.h"
 #include "base/state_overlay.h"
+#include "base/text_line.h"
 #include "base/theme.h"
 #include "paths/path_entries.h"
 #include "paths/value_cells.h"
@@ -25,14 +25,14 @@ VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection,
       dataset_(dataset),
       selection_(selection),
       model_(new VertexTableModel(this)),
-      title_(new QLabel),
+      title_(new TextLine(theme, Qt::AlignLeft, false)),
       back_(new QToolButton),
       forward_(new QToolButton),
       table_(new QTableView),
       overlay_(new StateOverlay(theme, table_)),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
-                            if (parts & client::DatasetPart::currentTrace) reload();
+                            if (parts & (client::DatasetPart::currentTrace | client::DatasetPart::meshes)) reload();
                         }),
       selectionListening_(selection, [this](std::uint32_t parts) {
           if (parts & (client::SelectionPart::vertex | client::SelectionPart::currentPath)) reload();
@@ -41,13 +41,13 @@ VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection,
     back_->setToolTip(tr("Vertex before on the path ( , )"));
     forward_->setText(QStringLiteral("›"));
     forward_->setToolTip(tr("Next vertex on the path ( . )"));
-    title_->setMinimumWidth(40);
     table_->setModel(model_);
     table_->setItemDelegate(new VertexTableDelegate(theme, this));
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setShowGrid(false);
     table_->setFrameShape(QFrame::NoFrame);
     table_->setContextMenuPolicy(Qt::CustomContextMenu);
+    table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // columns stay where they are, whatever a vertex has
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(Spacing::row);
     table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
@@ -84,7 +84,8 @@ void VertexTable::reload() {
     const PathSet& paths = dataset_.paths();
     const auto& selected = selection_.state().vertex;
     const std::optional<Index> vertex = selected ? findVertex(paths, *selected) : std::nullopt;
-    model_->setVertex(paths, vertex);
+    table_->viewport()->setUpdatesEnabled(vertex.has_value());  // without a vertex, all of it is covered
+    model_->setVertex(paths, vertex, meshesOf(dataset_));
     back_->setEnabled(model_->previous().has_value());
     forward_->setEnabled(model_->next().has_value());
     if (vertex) {
@@ -92,11 +93,15 @@ void VertexTable::reload() {
                         pathText(paths, paths.pathOf(*vertex), severalPixels(paths)));
         overlay_->clear();
     } else {
-        title_->clear();
+        title_->setText({});
         overlay_->showEmpty(tr("Values of a vertex"), paths.empty()
                                                           ? tr("Click a pixel in the image")
                                                           : tr("Click a vertex in the 3D view or in the tree"));
     }
+    // These questions let the table and its headers do now what they put off: later, it would all be painted again.
+    table_->indexAt(QPoint());
+    table_->verticalHeader()->length();
+    table_->horizontalHeader()->length();
 }
 
 void VertexTable::stepBack() {

@@ -4,13 +4,13 @@
 
 #include "base/listeners.h"
 
-class QLabel;
 class QTableView;
 class QToolButton;
 
 namespace emca::explorer {
 
 class StateOverlay;
+class TextLine;
 class Theme;
 class VertexTableModel;
 
@@ -37,7 +37,7 @@ class VertexTable : public QWidget {
     client::Dataset& dataset_;
     client::Selection& selection_;
     VertexTableModel* model_;
-    QLabel* title_;
+    TextLine* title_;
     QToolButton* back_;
     QToolButton* forward_;
     QTableView* table_;

@@ -8,8 +8,8 @@ namespace {
 
 using Key = std::pair<QString, int>;  ///< name, and which one of those of the same name
 
-VertexTableModel::Cell cellOf(const PathSet& paths, const Entry& entry) {
-    return {true, valueCells(paths, entry), fullValueText(paths, entry), colorOf(paths, entry), toneOf(paths, entry)};
+VertexTableModel::Cell cellOf(const PathSet& paths, const Entry& entry, std::span<const Mesh> meshes) {
+    return {true, valueCells(paths, entry, meshes), fullValueText(paths, entry, meshes), colorOf(paths, entry), toneOf(paths, entry)};
 }
 
 VertexTableModel::Cell textCell(const QString& text) { return {true, {{}, text, {}}, text, {}, Tone::normal}; }
@@ -38,36 +38,66 @@ QString depthTitle(const PathSet& paths, Index vertex) {
 
 }  // namespace
 
-void VertexTableModel::setVertex(const PathSet& paths, std::optional<Index> vertex) {
-    beginResetModel();
-    rows_.clear();
+void VertexTableModel::setVertex(const PathSet& paths, std::optional<Index> vertex, std::span<const Mesh> meshes) {
+    std::array<QString, 3> titles;
+    std::vector<Row> rows;
     vertex_ = vertex;
     neighbours_ = {};
-    titles_ = {};
-    if (vertex) {
-        const IndexRange range = paths.vertices(paths.pathOf(*vertex));
-        const auto same = [&](Index other) { return paths.subpath(other) == paths.subpath(*vertex); };
-        if (*vertex > range.first && same(*vertex - 1)) neighbours_[0] = *vertex - 1;
-        if (*vertex + 1 < range.last && same(*vertex + 1)) neighbours_[1] = *vertex + 1;
-        const std::array<std::optional<Index>, 3> columns{neighbours_[0], vertex, neighbours_[1]};
+    if (vertex) rows = rowsOf(paths, *vertex, meshes, titles);
+    show(std::move(rows), std::move(titles));
+}
 
-        std::array<std::map<Key, Entry>, 3> there;
-        Row event{QStringLiteral("event"), {}};
-        for (std::size_t c = 0; c < 3; ++c) {
-            if (!columns[c]) continue;
-            titles_[c] = depthTitle(paths, *columns[c]);
-            for (const auto& [key, entry] : keyed(paths, *columns[c])) there[c].emplace(key, entry);
-            if (const QString text = eventText(paths, *columns[c]); !text.isEmpty()) event.cells[c] = textCell(text);
-        }
-        if (event.cells[1].present) rows_.push_back(event);
-        for (const auto& [key, entry] : keyed(paths, *vertex)) {
-            Row row{key.first, {}};
-            for (std::size_t c = 0; c < 3; ++c)
-                if (const auto at = there[c].find(key); at != there[c].end()) row.cells[c] = cellOf(paths, at->second);
-            rows_.push_back(std::move(row));
-        }
+std::vector<VertexTableModel::Row> VertexTableModel::rowsOf(const PathSet& paths, Index vertex, std::span<const Mesh> meshes,
+                                                            std::array<QString, 3>& titles) {
+    const IndexRange range = paths.vertices(paths.pathOf(vertex));
+    const auto same = [&](Index other) { return paths.subpath(other) == paths.subpath(vertex); };
+    if (vertex > range.first && same(vertex - 1)) neighbours_[0] = vertex - 1;
+    if (vertex + 1 < range.last && same(vertex + 1)) neighbours_[1] = vertex + 1;
+    const std::array<std::optional<Index>, 3> columns{neighbours_[0], vertex, neighbours_[1]};
+
+    std::vector<Row> rows;
+    std::array<std::map<Key, Entry>, 3> there;
+    Row event{QStringLiteral("event"), {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (!columns[c]) continue;
+        titles[c] = depthTitle(paths, *columns[c]);
+        for (const auto& [key, entry] : keyed(paths, *columns[c])) there[c].emplace(key, entry);
+        if (const QString text = eventText(paths, *columns[c]); !text.isEmpty()) event.cells[c] = textCell(text);
     }
-    endResetModel();
+    if (event.cells[1].present) rows.push_back(event);
+    for (const auto& [key, entry] : keyed(paths, vertex)) {
+        Row row{key.first, {}};
+        for (std::size_t c = 0; c < 3; ++c)
+            if (const auto at = there[c].find(key); at != there[c].end()) row.cells[c] = cellOf(paths, at->second, meshes);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+// Without a reset: after one, a view lays its rows out a turn of the event loop later and paints a second time.
+void VertexTableModel::show(std::vector<Row> rows, std::array<QString, 3> titles) {
+    const int before = int(rows_.size()), now = int(rows.size());
+    if (now < before) {
+        beginRemoveRows({}, now, before - 1);
+        rows_.resize(rows.size());
+        endRemoveRows();
+    } else if (now > before) {
+        beginInsertRows({}, before, now - 1);
+        rows_.insert(rows_.end(), rows.begin() + before, rows.end());
+        endInsertRows();
+    }
+    for (int r = 0; r < std::min(before, now); ++r) {
+        Row &old = rows_[std::size_t(r)], &fresh = rows[std::size_t(r)];
+        const bool renamed = old.quantity != fresh.quantity;
+        std::array<bool, kColumnCount> changed{renamed};
+        for (std::size_t c = 0; c < 3; ++c) changed[kPrevious + c] = !(old.cells[c] == fresh.cells[c]);
+        old = std::move(fresh);
+        for (int c = 0; c < kColumnCount; ++c)
+            if (changed[std::size_t(c)]) emit dataChanged(index(r, c), index(r, c));
+    }
+    if (titles == titles_) return;
+    titles_ = std::move(titles);
+    emit headerDataChanged(Qt::Horizontal, kPrevious, kNext);
 }
 
 const VertexTableModel::Cell& VertexTableModel::cell(int row, Column column) const {

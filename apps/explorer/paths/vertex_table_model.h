@@ -3,6 +3,7 @@
 #include <QAbstractTableModel>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "emca/core/path_set.h"
@@ -21,11 +22,13 @@ class VertexTableModel : public QAbstractTableModel {
         QString full;  ///< for copying
         std::optional<Color> color;
         Tone tone = Tone::normal;
+        friend bool operator==(const Cell&, const Cell&) = default;
     };
 
     explicit VertexTableModel(QObject* parent = nullptr) : QAbstractTableModel(parent) {}
-    /// Nothing: an empty table.
-    void setVertex(const PathSet& paths, std::optional<Index> vertex);
+    /// Nothing: an empty table. Tells of what differs only; there is no reset.
+    /// \param meshes  of the scene, for the names of surfaces
+    void setVertex(const PathSet& paths, std::optional<Index> vertex, std::span<const Mesh> meshes = {});
     std::optional<Index> vertex() const { return vertex_; }
     /// Neighbours on the path: of the same subpath, in order of depth.
     std::optional<Index> previous() const { return neighbours_[0]; }
@@ -46,6 +49,8 @@ class VertexTableModel : public QAbstractTableModel {
         QString quantity;
         std::array<Cell, 3> cells;  ///< previous, this, next
     };
+    std::vector<Row> rowsOf(const PathSet& paths, Index vertex, std::span<const Mesh> meshes, std::array<QString, 3>& titles);
+    void show(std::vector<Row> rows, std::array<QString, 3> titles);
     std::vector<Row> rows_;
     std::optional<Index> vertex_;
     std::array<std::optional<Index>, 2> neighbours_;

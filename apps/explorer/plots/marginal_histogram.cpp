@@ -46,12 +46,26 @@ void MarginalHistogram::refresh() {
         bins = std::clamp<std::size_t>(static_cast<std::size_t>(length / 6), 1, 64);
     }
     all_ = analysis::histogram(content_.ys, range, bins);
+    selected_ = histogramOfSelected();
+    dimmed_ = !content_.selected.empty();
+    const std::uint64_t most = std::max({all_.largest(), all_.below, all_.above, all_.nan});
+    roomForCount_ = 12 + QFontMetrics(theme_.smallNumberFont()).horizontalAdvance(grouped(most));
+    update();
+}
+
+analysis::Histogram MarginalHistogram::histogramOfSelected() const {
     std::vector<double> chosen;
     chosen.reserve(content_.selected.size());
     for (const std::uint32_t i : content_.selected) chosen.push_back(content_.ys[i]);
-    selected_ = analysis::histogram(chosen, range, bins);
-    const std::uint64_t most = std::max({all_.largest(), all_.below, all_.above, all_.nan});
-    roomForCount_ = 12 + QFontMetrics(theme_.smallNumberFont()).horizontalAdvance(grouped(most));
+    return analysis::histogram(chosen, all_.range, all_.binCount());
+}
+
+void MarginalHistogram::refreshSelected() {
+    analysis::Histogram fresh = histogramOfSelected();
+    const bool dimmed = !content_.selected.empty();
+    if (fresh.counts == selected_.counts && dimmed == dimmed_) return;
+    selected_ = std::move(fresh);
+    dimmed_ = dimmed;
     update();
 }
 

@@ -23,6 +23,8 @@ class MarginalHistogram : public QWidget {
     void setCanvas(int top, int height);
     /// The content changed.
     void refresh();
+    /// Only which points are selected changed.
+    void refreshSelected();
     const analysis::Histogram& bars() const { return all_; }
     QSize sizeHint() const override { return {104, 100}; }
 
@@ -37,6 +39,7 @@ class MarginalHistogram : public QWidget {
     void leaveEvent(QEvent* event) override;
 
   private:
+    analysis::Histogram histogramOfSelected() const;
     QRectF barRect(std::size_t bar, std::uint64_t count) const;
     double lengthOf(std::uint64_t count) const;
     /// Count of a bar as long as there is room. A bar that would flatten all others is cut instead, and has a notch.
@@ -52,6 +55,7 @@ class MarginalHistogram : public QWidget {
     int top_ = 0, height_ = 0;
     int hovered_ = -1;
     double roomForCount_ = 40;
+    bool dimmed_ = false;
     analysis::Histogram all_, selected_;
 };
 

@@ -4,7 +4,6 @@
 #include <QClipboard>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLocale>
 #include <QMenu>
 #include <QScopedValueRollback>
@@ -14,6 +13,7 @@
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
+#include "base/text_line.h"
 #include "emca/analysis/format.h"
 #include "plots/marginal_histogram.h"
 #include "plots/plot_export.h"
@@ -46,7 +46,7 @@ PathPlot::PathPlot(client::Dataset& dataset, client::Selection& selection, Theme
       area_(new QWidget),
       logButton_(barButton(tr("Log"), tr("Logarithmic values (L)"))),
       resetButton_(barButton(tr("Reset zoom"), tr("Show all paths again (double click, Home)"))),
-      summary_(new QLabel),
+      summary_(new TextLine(theme, Qt::AlignRight, true)),
       overlay_(new StateOverlay(theme, area_)),
       datasetListening_(dataset,
                         [this](std::uint32_t parts) {
@@ -57,14 +57,12 @@ PathPlot::PathPlot(client::Dataset& dataset, client::Selection& selection, Theme
           if (parts & SelectionPart::hover) hover();
       }) {
     logButton_->setCheckable(true);
-    summary_->setProperty("role", "muted");
     auto* bar = new QHBoxLayout;
     bar->setContentsMargins(Spacing::small, Spacing::tiny, Spacing::medium, Spacing::tiny);
     bar->setSpacing(Spacing::tiny);
     bar->addWidget(logButton_);
     bar->addWidget(resetButton_);
-    bar->addStretch(1);
-    bar->addWidget(summary_);
+    bar->addWidget(summary_, 1);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
@@ -206,7 +204,7 @@ void PathPlot::updateState() {
         overlay_->showEmpty(
             traced ? tr("No paths") : tr("Paths of a pixel"),
             traced ? tr("The renderer recorded no path for this pixel") : tr("Click a pixel in the image"));
-        summary_->clear();
+        summary_->setText({});
         return;
     }
     if (!anything) {

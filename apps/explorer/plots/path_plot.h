@@ -9,12 +9,12 @@
 #include "emca/analysis/path_quantities.h"
 #include "plots/scatter_plot.h"
 
-class QLabel;
 class QToolButton;
 
 namespace emca::explorer {
 
 class StateOverlay;
+class TextLine;
 
 /// One of the plots above each other: a quantity of each path over its sample index.
 struct PathPlotRow {
@@ -80,7 +80,7 @@ class PathPlot : public QWidget {
     QWidget* area_;
     QToolButton* logButton_;
     QToolButton* resetButton_;
-    QLabel* summary_;
+    TextLine* summary_;
     StateOverlay* overlay_;
     bool log_ = false, aligning_ = false;
     DatasetListening datasetListening_;

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/qt_compat.h"
 #include "base/theme.h"
-#include "emca/analysis/format.h"
-#include "plots/edge_marks.h"
 
 namespace emca::explorer {
 namespace {
@@ -18,13 +15,12 @@ QColor withAlpha(QColor color, double alpha) {
     return color;
 }
 
-/// Pictures and printers of vectors get circles, screens get stamps.
-bool isVector(const QPainter& painter) {
+}  // namespace
+
+bool keepsShapes(const QPainter& painter) {
     return painter.paintEngine() && painter.paintEngine()->type() != QPaintEngine::Raster &&
            painter.paintEngine()->type() != QPaintEngine::OpenGL2;
 }
-
-}  // namespace
 
 bool ScatterContent::isSelected(std::uint32_t point) const {
     return std::binary_search(selected.begin(), selected.end(), point);
@@ -76,19 +72,15 @@ void PointsItem::draw(QPainter* painter, const QwtScaleMap&, const QwtScaleMap&,
     painter->save();
     painter->setClipRect(canvas);
     painter->setRenderHint(QPainter::Antialiasing);
-    if (isVector(*painter) && !content_.dense()) {
+    if (keepsShapes(*painter) && !content_.dense()) {
         drawDots(*painter, !content_.selected.empty());
     } else {
         drawLayer(*painter);
     }
-    drawSelected(*painter);
-    drawEdges(*painter);
-    drawMean(*painter);
-    drawCurrent(*painter);
     painter->restore();
 }
 
-QPixmap PointsItem::stamp(const QColor& color, double radius, const QColor& halo, double ratio) const {
+QPixmap dotStamp(const QColor& color, double radius, const QColor& halo, double ratio) {
     const int side = 2 * static_cast<int>(std::ceil(radius + 1.5));
     QPixmap pixmap(QSize(side, side) * ratio);
     pixmap.setDevicePixelRatio(ratio);
@@ -121,45 +113,24 @@ void PointsItem::drawDots(QPainter& painter, bool dimmed) const {
         forInside(i, [&](QPointF at) { painter.drawEllipse(at, r, r); });
 }
 
-void PointsItem::drawSelected(QPainter& painter) const {
-    const ThemeColors& c = theme_.colors();
-    const double r = radius(content_.xs.size()) + 1, half = std::ceil(r + 1.5);
-    const bool vector = isVector(painter);
-    QPixmap dot;
-    if (!vector) dot = stamp(c.selected, r, c.halo, painter.device()->devicePixelRatioF());
-    painter.setPen(QPen(c.halo, 1));
-    painter.setBrush(c.selected);
-    for (const std::uint32_t i : content_.selected)
-        forInside(i, [&](QPointF at) {
-            if (vector) {
-                painter.drawEllipse(at, r, r);
-            } else {
-                painter.drawPixmap(QPointF(at.x() - half, at.y() - half), dot);
-            }
-        });
-}
-
 void PointsItem::drawLayer(QPainter& painter) const {
     const PlotFrame& frame = content_.frame;
     const double ratio = painter.device()->devicePixelRatioF();
     const bool dimmed = !content_.selected.empty();
-    const bool fresh = layer_.version == content_.version && layer_.x == frame.x().range &&
-                       layer_.y == frame.y().range && layer_.canvas == frame.canvas() &&
-                       layer_.color == content_.color && layer_.dimmed == dimmed &&
-                       layer_.image.devicePixelRatioF() == (content_.dense() ? 1 : ratio) && !layer_.image.isNull();
-    if (!fresh)
-        layer_ = {content_.dense() ? densityImage(dimmed) : dotsImage(dimmed, ratio),
-                  content_.version,
-                  frame.x().range,
-                  frame.y().range,
-                  frame.canvas(),
-                  content_.color,
-                  dimmed};
+    Layer& layer = layers_[dimmed];
+    const bool fresh = layer.version == content_.version && layer.x == frame.x().range && layer.y == frame.y().range &&
+                       layer.canvas == frame.canvas() && layer.color == content_.color &&
+                       layer.image.devicePixelRatioF() == (content_.dense() ? 1 : ratio) && !layer.image.isNull();
+    if (!fresh) {
+        ++drawnLayers_;
+        layer = {content_.dense() ? densityImage(dimmed) : dotsImage(dimmed, ratio), content_.version, frame.x().range,
+                 frame.y().range, frame.canvas(), content_.color};
+    }
     if (content_.dense()) {
         painter.drawImage(QRectF(QPointF(frame.x().start, frame.y().end), QPointF(frame.x().end, frame.y().start)),
-                          layer_.image);
+                          layer.image);
     } else {
-        painter.drawImage(QPointF(0, 0), layer_.image);
+        painter.drawImage(QPointF(0, 0), layer.image);
     }
 }
 
@@ -171,7 +142,7 @@ QImage PointsItem::dotsImage(bool dimmed, double ratio) const {
     QPainter painter(&image);
     painter.setRenderHint(QPainter::Antialiasing);
     const double r = radius(content_.xs.size()), half = std::ceil(r + 1.5);
-    const QPixmap dot = stamp(dotColor(dimmed), r, {}, ratio);
+    const QPixmap dot = dotStamp(dotColor(dimmed), r, {}, ratio);
     for (std::uint32_t i = 0; i < content_.xs.size(); ++i)
         forInside(i, [&](QPointF at) { painter.drawPixmap(QPointF(at.x() - half, at.y() - half), dot); });
     return image;
@@ -196,39 +167,6 @@ QImage PointsItem::densityImage(bool dimmed) const {
         }
     }
     return image;
-}
-
-void PointsItem::drawEdges(QPainter& painter) const { paintEdgeMarks(painter, content_, theme_); }
-
-void PointsItem::drawMean(QPainter& painter) const {
-    if (!content_.mean || content_.frame.row(*content_.mean) != PlotRow::inside) return;
-    const QString text = QStringLiteral("mean ") + toQString(analysis::formatNumber(*content_.mean));
-    const QFontMetricsF metrics(theme_.smallNumberFont());
-    const double line = content_.frame.y().pixel(*content_.mean), height = metrics.height();
-    QRectF box(content_.frame.canvas().width() - metrics.horizontalAdvance(text) - 12, line - height - 2,
-               metrics.horizontalAdvance(text) + 8, height);
-    if (box.top() < content_.frame.y().end - 2) box.moveTop(line + 2);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(withAlpha(theme_.colors().ground, 0.85));
-    painter.drawRoundedRect(box, 2, 2);
-    painter.setFont(theme_.smallNumberFont());
-    painter.setPen(theme_.colors().text);
-    painter.drawText(box, Qt::AlignCenter, text);
-}
-
-void PointsItem::drawCurrent(QPainter& painter) const {
-    if (!content_.current || *content_.current >= content_.xs.size()) return;
-    const std::uint32_t i = *content_.current;
-    const std::optional<QPointF> at = content_.frame.place(content_.xs[i], content_.ys[i]);
-    if (!at) return;
-    // A ring around the dot and its value's level, so that one finds it among hundreds.
-    const ThemeColors& c = theme_.colors();
-    painter.setBrush(Qt::NoBrush);
-    const double r = radius(content_.xs.size()) + 4;
-    painter.setPen(QPen(c.halo, 3.5));
-    painter.drawEllipse(*at, r, r);
-    painter.setPen(QPen(c.selected, 1.75));
-    painter.drawEllipse(*at, r, r);
 }
 
 }  // namespace emca::explorer

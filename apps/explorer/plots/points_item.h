@@ -38,44 +38,45 @@ class GridItem : public QwtPlotItem {
     const Theme& theme_;
 };
 
-/// Points of a scatter plot: dots, or density where dots would hide dots; dimmed while others are selected; what lies
-/// beyond the range with an arrow and its value at the edge; NaN and infinity as words.
+/// Points of a scatter plot inside its ranges, whether selected or not: dots, or density where dots would hide dots;
+/// dimmed while some are selected. What is selected is marked by PlotOverlay above it, so that a selection draws no
+/// point again.
 class PointsItem : public QwtPlotItem {
   public:
     PointsItem(const ScatterContent& content, const Theme& theme) : content_(content), theme_(theme) { setZ(2); }
     void draw(QPainter* painter, const QwtScaleMap&, const QwtScaleMap&, const QRectF& canvas) const override;
     /// Radius of a dot in pixels: smaller the more there are.
     static double radius(std::size_t points);
+    /// How often all points were drawn so far.
+    std::uint64_t drawnLayers() const { return drawnLayers_; }
 
   private:
-    void drawSelected(QPainter& painter) const;
     QColor dotColor(bool dimmed) const;
     /// Calls draw with the place of a point that is inside the ranges.
     template <typename Draw>
     void forInside(std::uint32_t point, Draw draw) const;
     void drawDots(QPainter& painter, bool dimmed) const;
-    void drawEdges(QPainter& painter) const;
-    void drawCurrent(QPainter& painter) const;
-    void drawMean(QPainter& painter) const;
-    /// One dot as a picture: stamping it is ten times as fast as drawing circles.
-    QPixmap stamp(const QColor& color, double radius, const QColor& halo, double ratio) const;
 
     const ScatterContent& content_;
     const Theme& theme_;
-    // All dots (or their density) without what is selected, as drawn last: a change of the selection draws them again
-    // only if they become dim or bright. A selected dot covers its own.
+    // All dots (or their density) as drawn last, bright and dim: a selection that comes or goes draws neither again.
     struct Layer {
         QImage image;
         std::uint64_t version = 0;
         analysis::ValueRange x, y;
         QSizeF canvas;
         QColor color;
-        bool dimmed = false;
     };
     void drawLayer(QPainter& painter) const;
     QImage densityImage(bool dimmed) const;
     QImage dotsImage(bool dimmed, double ratio) const;
-    mutable Layer layer_;
+    mutable Layer layers_[2];
+    mutable std::uint64_t drawnLayers_ = 0;
 };
+
+/// One dot as a picture: stamping it is ten times as fast as drawing circles.
+QPixmap dotStamp(const QColor& color, double radius, const QColor& halo, double ratio);
+/// Whether what is painted keeps shapes: pictures and printers of vectors get circles, screens get stamps.
+bool keepsShapes(const QPainter& painter);
 
 }  // namespace emca::explorer

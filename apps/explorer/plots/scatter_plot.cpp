@@ -12,6 +12,7 @@
 #include "base/qt_compat.h"
 #include "emca/analysis/format.h"
 #include "plots/marginal_histogram.h"
+#include "plots/mean_label.h"
 #include "plots/plot_axis.h"
 #include "plots/plot_overlay.h"
 
@@ -46,7 +47,9 @@ ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
       theme_(theme),
       plot_(new QwtPlot(this)),
       histogram_(new MarginalHistogram(content_, theme, this)),
-      overlay_(new PlotOverlay(theme, plot_->canvas())) {
+      overlay_(new PlotOverlay(content_, theme, plot_->canvas())),
+      points_(new PointsItem(content_, theme)),
+      mean_(new MeanLabel(content_, theme, this)) {
     plot_->setAutoReplot(false);
     plot_->plotLayout()->setAlignCanvasToScales(true);
     plot_->plotLayout()->setSpacing(0);
@@ -60,7 +63,7 @@ ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
     canvas->setMouseTracking(true);
     // Items belong to the plot, which deletes them.
     (new GridItem(content_, theme))->attach(plot_);
-    (new PointsItem(content_, theme))->attach(plot_);
+    points_->attach(plot_);
     for (QWidget* widget : {static_cast<QWidget*>(canvas), static_cast<QWidget*>(plot_->axisWidget(QwtPlot::yLeft)),
                             static_cast<QWidget*>(plot_->axisWidget(QwtPlot::xBottom))})
         widget->installEventFilter(this);
@@ -68,6 +71,7 @@ ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(plot_, 1);
+    layout->addWidget(mean_);
     layout->addWidget(histogram_);
     setFocusPolicy(Qt::StrongFocus);
     setAutoFillBackground(true);
@@ -131,9 +135,23 @@ void ScatterPlot::setPoints(std::vector<double> xs, std::vector<double> ys) {
 
 void ScatterPlot::setSelected(std::vector<std::uint32_t> points, std::optional<std::uint32_t> current) {
     if (points == content_.selected && current == content_.current) return;
+    const bool dimmer = points.empty() != content_.selected.empty();
+    QRegion changed = overlay_->markedRegion();
     content_.selected = std::move(points);
     content_.current = current;
-    refresh();
+    changed += overlay_->markedRegion();
+    if (dimmer) {
+        replotCanvas();
+        overlay_->update();
+    } else {
+        overlay_->update(changed);
+    }
+    histogram_->refreshSelected();
+}
+
+void ScatterPlot::replotCanvas() {
+    // Qwt's own replot() lays the axes out besides, which no selection changes.
+    static_cast<QwtPlotCanvas*>(plot_->canvas())->replot();
 }
 
 void ScatterPlot::setHovered(std::optional<std::uint32_t> point) {
@@ -152,6 +170,7 @@ void ScatterPlot::setLog(bool log) {
 
 void ScatterPlot::setMeanShown(bool shown) {
     meanShown_ = shown;
+    mean_->setVisible(shown);
     findRanges();
     refresh();
 }
@@ -250,7 +269,9 @@ void ScatterPlot::refresh() {
     const QPoint top = plot_->canvas()->mapTo(this, QPoint(0, 0));
     histogram_->setCanvas(top.y(), plot_->canvas()->height());
     histogram_->refresh();
+    mean_->setCanvasTop(top.y());
     overlay_->setGeometry(plot_->canvas()->rect());
+    overlay_->update();
     showHovered();
 }
 

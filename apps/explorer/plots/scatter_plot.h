@@ -13,6 +13,7 @@ class QwtPlot;
 namespace emca::explorer {
 
 class MarginalHistogram;
+class MeanLabel;
 class PlotOverlay;
 
 /// What an axis shows.
@@ -70,6 +71,8 @@ class ScatterPlot : public QWidget {
     QWidget* canvas() const;
     QwtPlot* plot() const { return plot_; }
     MarginalHistogram* histogram() const { return histogram_; }
+    /// How often all points were drawn so far; selecting some must not.
+    std::uint64_t drawnPointLayers() const { return points_->drawnLayers(); }
     QString hoverText() const;
     /// While set, the canvas is painted anew each time, as vectors if the device takes them.
     void setExporting(bool exporting);
@@ -98,6 +101,7 @@ class ScatterPlot : public QWidget {
     void findRanges();   ///< default ranges of the points
     void layoutFrame();  ///< frame, ticks and axes for the current ranges and size
     void refresh();      ///< draws points and histogram again
+    void replotCanvas();
     bool press(QMouseEvent& event);
     bool move(QMouseEvent& event);
     bool release(QMouseEvent& event);
@@ -123,6 +127,8 @@ class ScatterPlot : public QWidget {
     QwtPlot* plot_;
     MarginalHistogram* histogram_;
     PlotOverlay* overlay_;
+    PointsItem* points_;  ///< belongs to plot_
+    MeanLabel* mean_;
     double axisWidth_ = 0;
 };
 

@@ -9,6 +9,8 @@ set(EMCA_PLOTS_SOURCES
   plots/luminance_plot.h
   plots/marginal_histogram.cpp
   plots/marginal_histogram.h
+  plots/mean_label.cpp
+  plots/mean_label.h
   plots/path_plot.cpp
   plots/path_plot.h
   plots/plot_axis.cpp

@@ -1,6 +1,7 @@
 #include "camera_driver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace emca::explorer {
 namespace {
@@ -49,7 +50,7 @@ void CameraDriver::flyTo(const ViewPose& pose) {
     to_ = pose;
     flying_ = animated_;
     if (!animated_) return setPose(to_);
-    clock_.start();
+    departed_ = false;
     begin();
 }
 
@@ -60,7 +61,7 @@ void CameraDriver::back() {
     history_.pop_back();
     flying_ = animated_;
     if (!animated_) return setPose(to_);
-    clock_.start();
+    departed_ = false;
     begin();
 }
 
@@ -102,6 +103,8 @@ void CameraDriver::step(double amount) {
 
 void CameraDriver::tick() {
     if (flying_) {
+        // Time counts from the first step: the frame that shows what is flown to comes before, however long it takes.
+        if (!std::exchange(departed_, true)) clock_.start();
         const double t = static_cast<double>(clock_.nsecsElapsed()) * 1e-9 / kFlightSeconds;
         if (t >= 1) flying_ = false;
         setPose(between(from_, to_, eased(t)));

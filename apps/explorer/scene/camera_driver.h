@@ -52,7 +52,7 @@ class CameraDriver : public QObject {
 
     ViewPose pose_, from_, to_;
     std::vector<ViewPose> history_;
-    bool flying_ = false, animated_ = true, wasMoving_ = false, fast_ = false;
+    bool flying_ = false, departed_ = false, animated_ = true, wasMoving_ = false, fast_ = false;
     double step_ = 0.05;
     QSet<int> keys_;
     QTimer timer_;

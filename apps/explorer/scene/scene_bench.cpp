@@ -80,9 +80,8 @@ void bench(const char* title, std::uint32_t pathCount, std::uint32_t triangles, 
         while (view.isLoading()) QApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
         std::printf("  prepare meshes: %.0f ms beside the window, which was held up for %.1f ms\n", double(timer.nsecsElapsed()) * 1e-6, blocked);
     }
-    // The room is open: paths that escape are short, so longer ones are allowed until the mean is about 8.
-    const PathSet paths = explorer::testing::roomPaths(pathCount, 12);
-    std::printf("  %u paths, %u vertices\n", paths.pathCount(), paths.vertexCount());
+    const PathSet paths = explorer::testing::roomPaths(pathCount, 8, 0.01f, true);
+    std::printf("  %u paths, %u vertices, %.2f on average\n", paths.pathCount(), paths.vertexCount(), double(paths.vertexCount()) / paths.pathCount());
     const auto trace = explorer::testing::traceOf(paths);
     dataset.addTrace(trace);
     measure("show all paths", rounds, [&](int) { dataset.setCurrent({trace}); }, [&] { dataset.setCurrent({}); });

@@ -105,9 +105,14 @@ void SceneCanvas::paintGL() {
         pixelScale_ = static_cast<float>(effectiveDevicePixelRatio());
         applyPose();
         emit aboutToRender();
+        // VTK's adapter answers each frame drawn outside its own paint() with update(): the whole window would be
+        // composed a second time for nothing.
+        setAttribute(Qt::WA_UpdatesDisabled, true);
         renderWindow()->Render();
+        setAttribute(Qt::WA_UpdatesDisabled, false);
         // Drivers draw later than they are told; only a finished frame says how long it takes.
         renderWindow()->WaitForCompletion();
+        ++frames_;
         frameSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     QVTKOpenGLNativeWidget::paintGL();

@@ -4,6 +4,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkNew.h>
 
+#include <cstdint>
 #include <functional>
 
 #include "base/theme.h"
@@ -41,6 +42,8 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     QImage renderImage(QSize size);
     /// Duration of the last frame with everything drawn, in seconds.
     double lastFrameSeconds() const { return frameSeconds_; }
+    /// How many frames were drawn so far, pictures of renderImage() not counted.
+    std::uint64_t frameCount() const { return frames_; }
 
   signals:
     void poseChanged();
@@ -63,6 +66,7 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     double near_ = 0.01, far_ = 100;
     float pixelScale_ = 1;
     double frameSeconds_ = 0;
+    std::uint64_t frames_ = 0;
     bool dirty_ = true;
 };
 

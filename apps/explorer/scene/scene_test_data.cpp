@@ -174,8 +174,10 @@ Camera roomCamera() {
     return camera;
 }
 
-PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread) {
+PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread, bool closed) {
     const std::vector<Mesh> meshes = roomMeshes();
+    std::vector<Mesh> walls = meshes;
+    if (closed) walls.push_back(quad("front", {0.7f}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}));
     const auto light = static_cast<std::int32_t>(meshes.size() - 1);
     std::mt19937 random(7);
     std::uniform_real_distribution<float> uniform(0, 1);
@@ -185,7 +187,7 @@ PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread)
         Vec3f d = normalize(Vec3f{0.085f + spread * uniform(random), -0.075f + spread * uniform(random), -1});
         builder.beginPath(o);
         for (std::uint32_t depth = 1; depth <= maximumDepth; ++depth) {
-            const auto hit = closest(meshes, o, d, 1e30f);
+            const auto hit = closest(depth == 1 ? meshes : walls, o, d, 1e30f);   // the eye looks in from outside
             if (!hit) {
                 builder.vertex(std::int32_t(depth), o + d * 1000.f, VertexFlag::environment, 0, 0, {}, Event::background);
                 break;
@@ -193,7 +195,7 @@ PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread)
             const bool shines = hit->mesh == light;
             builder.vertex(std::int32_t(depth), hit->position, VertexFlag::hasSurface | VertexFlag::hasEvent | VertexFlag::hasEmission,
                            hit->mesh, hit->face, shines ? meshes[std::size_t(light)].emission : Color{}, shines ? Event::emission : Event::reflect);
-            if (shines) break;
+            if (shines && !closed) break;
             const Vec3f n = dot(hit->normal, d) < 0 ? hit->normal : -hit->normal;
             const Vec3f sample{-0.3f + 0.6f * uniform(random), 0.985f, -0.25f + 0.5f * uniform(random)};
             const Vec3f way = sample - hit->position;

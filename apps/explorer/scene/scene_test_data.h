@@ -20,7 +20,8 @@ Camera roomCamera();
 
 /// Paths that really bounce in the room (diffuse, by brute force over its triangles), all through one pixel; next-event
 /// estimation at every vertex with its true visibility. Fixed seed.
-PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread = 0.01f);
+/// \param closed  no path escapes or ends at the light: each has maximumDepth vertices
+PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread = 0.01f, bool closed = false);
 
 /// One hand-made path per sample: `points` are its vertices with depths from 1; it begins at `origin`.
 PathSet pathOf(Vec3f origin, const std::vector<Vec3f>& points, const std::vector<NextEvent>& nextEventsAtFirst = {});

@@ -359,12 +359,23 @@ void SceneView::setPose(const ViewPose& pose) { impl_->driver.moveTo(pose); }
 bool SceneView::isLoading() const { return impl_->loader.isLoading(); }
 bool SceneView::isMoving() const { return impl_->driver.isMoving(); }
 double SceneView::lastFrameSeconds() const { return impl_->canvas ? impl_->canvas->lastFrameSeconds() : 0; }
+std::uint64_t SceneView::frameCount() const { return impl_->canvas ? impl_->canvas->frameCount() : 0; }
+void SceneView::requestFrame() {
+    if (impl_->canvas) impl_->canvas->requestRender();
+}
 void SceneView::resetCamera() { impl_->goHome(false); }
 void SceneView::back() { impl_->driver.back(); }
 
 void SceneView::showLoading(double fraction) {
+    if (impl_->loadError.isEmpty() && impl_->loadingFraction == fraction) return;
     impl_->loadError.clear();
     impl_->loadingFraction = fraction;
+    impl_->updateState();
+}
+
+void SceneView::endLoading() {
+    if (!impl_->loadingFraction) return;
+    impl_->loadingFraction.reset();
     impl_->updateState();
 }
 

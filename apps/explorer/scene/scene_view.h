@@ -3,6 +3,7 @@
 #include <QImage>
 #include <QWidget>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -47,6 +48,8 @@ class SceneView : public QWidget {
 
     bool isLoading() const;             ///< meshes are being prepared
     double lastFrameSeconds() const;    ///< time that the last frame took to draw; 0 without OpenGL
+    std::uint64_t frameCount() const;   ///< frames drawn so far; 0 without OpenGL
+    void requestFrame();                ///< draws another one although nothing changed
     bool isMoving() const;              ///< a flight or a key that is held
 
   public slots:
@@ -56,6 +59,8 @@ class SceneView : public QWidget {
     void setRectangleMode(bool on);
     /// Progress of the scene's way from the renderer, in [0, 1]; negative: unknown. Ends when the Dataset gets meshes.
     void showLoading(double fraction);
+    /// Nothing is on its way any more, whether it came or not.
+    void endLoading();
     /// One sentence why the scene did not come, with a button that asks for it again (reloadRequested).
     void showLoadError(const QString& sentence);
 

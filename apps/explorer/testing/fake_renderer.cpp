@@ -1,6 +1,7 @@
 #include "testing/fake_renderer.h"
 
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "emca/recorder/recorder.h"
@@ -40,6 +41,7 @@ Camera FakeRenderer::camera() const {
 }
 
 std::vector<Mesh> FakeRenderer::meshes() const {
+    if (sceneRequests_++ > 0 && sceneFails) throw std::runtime_error("no memory for the scene");
     Mesh mesh;
     mesh.name = "wall";
     mesh.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
@@ -84,6 +86,7 @@ Result<Color> FakeRenderer::renderPixel(Pixel pixel, const RenderSettings& setti
         emca.setPathOrigin(Vec3f{0, 0, 5});
         emca.setDepthIndex(1);
         emca.setIntersectionPos(Vec3f{float(pixel.x) * 0.1f - 1, 1 - float(pixel.y) * 0.1f, 0});
+        emca.setIntersectionSurface(0, s % 2);
         emca.addIntersectionData("throughput", Color(1.f));
         for (std::uint32_t d = 2; d <= depth; ++d) {
             emca.setDepthIndex(static_cast<std::int32_t>(d));

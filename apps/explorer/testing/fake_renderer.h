@@ -15,6 +15,7 @@ class FakeRenderer : public Renderer {
     std::uint32_t width = 24, height = 16, samplesPerPixel = 4, depth = 2;
     std::atomic<int> rowMilliseconds{0};      ///< how long a row of a render takes
     std::atomic<int> pixelMilliseconds{0};    ///< how long a replay takes
+    std::atomic<bool> sceneFails{false};      ///< says how large its scene is, then fails to send it
     std::atomic<int> replays{0};              ///< pixels asked for so far
 
     RendererInfo info() const override;
@@ -26,6 +27,9 @@ class FakeRenderer : public Renderer {
     /// What a sample of a pixel carries.
     static Color sampleValue(Pixel pixel, std::uint32_t sample);
     static Color pixelValue(Pixel pixel, std::uint32_t samples);
+
+  private:
+    mutable std::atomic<int> sceneRequests_{0};
 };
 
 }  // namespace emca::explorer

@@ -1,55 +1,133 @@
 // From a click in the image to every view drawn, and from a selection to every view drawn: rows of BASELINE.md, in the
-// real window with a server in the same process. 1024 paths of 8 vertices.
-#include <QApplication>
-#include <QElapsedTimer>
+// real window with a server in the same process. 1024 paths of 8 vertices. Run it under Xvfb with software OpenGL.
+//
+// One drawn frame of the 3D view is measured in the same run, between the selections and in the same way: nothing but
+// the 3D view is asked to draw, and the clock stops when the window shows it. What a selection costs besides is the
+// difference. Frames of the camera's flight to what was selected come after that and are counted apart.
 #include <QTemporaryDir>
 #include <algorithm>
 #include <cstdio>
-#include <functional>
-#include <vector>
+#include <cstring>
 
 #include "base/path_ids.h"
 #include "emca/server/server.h"
 #include "image/image_canvas.h"
 #include "image/image_view.h"
 #include "scene/scene_view.h"
+#include "testing/event_times.h"
 #include "testing/fake_renderer.h"
 #include "testing/wait.h"
 #include "window/main_window.h"
+#include "window/panel_dock.h"
 
 using namespace emca;
 using namespace emca::explorer;
 
 namespace {
 
-constexpr int kRuns = 15;
-
 double median(std::vector<double> values) {
+    if (values.empty()) return 0;
     std::sort(values.begin(), values.end());
     return values[values.size() / 2];
 }
 
-/// Milliseconds until `act` has its effect and no view has anything left to paint.
-double measure(const std::function<void()>& act, const std::function<bool()>& arrived) {
-    QElapsedTimer clock;
-    clock.start();
-    act();
-    while (!arrived()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 1);
-    QCoreApplication::sendPostedEvents();
-    QCoreApplication::processEvents();
-    return double(clock.nsecsElapsed()) * 1e-6;
-}
+/// Medians of one kind of change.
+struct Row {
+    std::vector<double> total, call, frame, frames, flight;
+    std::map<std::string, std::vector<double>> times, paints;
+    std::size_t runs = 0;
+};
 
-void report(const char* what, const std::vector<double>& values, double frame) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    std::printf("%-28s median %7.1f ms  (%.1f to %.1f)  of it one 3D frame: %.1f ms\n", what, median(values), *low, *high, frame);
+class Bench {
+  public:
+    ~Bench() { times_.nameOf = {}; }
+    Bench(EventTimes& times, MainWindow& window) : times_(times), window_(window), scene_(*window.views().scene) {
+        times_.nameOf = [this](const QWidget& widget) -> std::string {
+            if (!std::strcmp(widget.metaObject()->className(), "emca::explorer::SceneCanvas")) return "3D frame";
+            for (const auto& [name, dock] : window_.docks())
+                if (dock == &widget) return name.toStdString();
+            return &widget == &window_ ? "window" : "";
+        };
+    }
+
+    void run(Row& row, const std::function<void()>& act, const std::function<bool()>& arrived = [] { return true; }) {
+        waitFor([&] { return window_.isSettled(); });
+        QTest::qWait(30);
+        times_.clear();
+        const std::uint64_t before = scene_.frameCount();
+        double end = 0, frame = 0;
+        std::uint64_t frames = 0;
+        int painted = 0;
+        QElapsedTimer clock;
+        times_.handled = [&] {
+            // The picture is complete with the first frame of the 3D view and the last paint of any other one.
+            int now = 0;
+            for (const auto& [name, count] : times_.paints)
+                if (name != "3D frame" && name != "scene" && name != "window") now += count;
+            const bool first = frames == 0 && scene_.frameCount() > before;
+            if (!first && now == painted) return;
+            painted = now;
+            end = double(clock.nsecsElapsed()) * 1e-6;
+            frames = scene_.frameCount() - before;
+            frame = times_.milliseconds["3D frame"];
+            snapshot_ = times_;
+        };
+        clock.start();
+        act();
+        const double call = double(clock.nsecsElapsed()) * 1e-6;
+        while (!arrived() || frames == 0) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 1);
+        QElapsedTimer quiet;   // ends when no other view was painted for a while
+        quiet.start();
+        double last = end;
+        while (quiet.elapsed() < 60) {
+            QCoreApplication::processEvents(QEventLoop::AllEvents, 1);
+            if (end != last) quiet.restart();
+            last = end;
+        }
+        times_.handled = {};
+        waitFor([&] { return window_.isSettled(); });
+        QTest::qWait(300);   // the full scene after the flight
+        row.total.push_back(end);
+        row.call.push_back(call);
+        row.frame.push_back(frame);
+        row.frames.push_back(double(frames));
+        row.flight.push_back(double(scene_.frameCount() - before - frames));
+        for (const auto& [name, ms] : snapshot_.milliseconds) row.times[name].push_back(ms);
+        for (const auto& [name, count] : snapshot_.paints) row.paints[name].push_back(count);
+        ++row.runs;
+    }
+
+  private:
+    struct Snapshot {
+        std::map<std::string, double> milliseconds;
+        std::map<std::string, int> paints;
+        Snapshot& operator=(const EventTimes& t) { milliseconds = t.milliseconds; paints = t.paints; return *this; }
+    } snapshot_;
+    EventTimes& times_;
+    MainWindow& window_;
+    SceneView& scene_;
+};
+
+void report(const char* what, const Row& row, double frame, double besides) {
+    const auto [low, high] = std::minmax_element(row.total.begin(), row.total.end());
+    std::printf("%-18s median %6.1f ms (%.1f to %.1f); besides one frame%s %6.1f ms; 3D frames: %.0f, then %.0f of the flight\n", what, median(row.total),
+                *low, *high, besides > 0 ? " and the renderer" : "", median(row.total) - frame - besides, median(row.frames), median(row.flight));
+    std::printf("    %-16s %6.2f ms\n", "the call", median(row.call));
+    for (auto [name, values] : row.times) {
+        values.resize(row.runs);
+        const auto found = row.paints.find(name);
+        std::vector<double> paints = found == row.paints.end() ? std::vector<double>() : found->second;
+        paints.resize(row.runs);
+        std::printf("    %-16s %6.2f ms, %.0f paints\n", name.empty() ? "else" : name.c_str(), median(values), median(paints));
+    }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     prepareOpenGl();
-    QApplication application(argc, argv);
+    EventTimes application(argc, argv);
+    const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
     FakeRenderer renderer;
     renderer.samplesPerPixel = 1024;
     renderer.depth = 8;
@@ -67,26 +145,30 @@ int main(int argc, char** argv) {
     window.connectTo({"127.0.0.1", (*server)->port()});
     if (!waitFor([&] { return window.isSettled() && dataset.currentImage() && session.link() == LinkState::connected; })) return 4;
 
+    SceneView& scene = *window.views().scene;
     ImageCanvas& canvas = window.views().image->canvas();
-    std::vector<double> clicks, renderers, paths, vertices, frames;
-    for (int i = 0; i < kRuns; ++i) {
-        const Pixel pixel{static_cast<std::uint32_t>(1 + i), 7};
-        clicks.push_back(measure(
-            [&] { QTest::mouseClick(&canvas, Qt::LeftButton, {}, canvas.transform().rectOf(pixel).center().toPoint()); },
-            [&] { return !dataset.current().empty() && dataset.current().front()->pixels.front() == pixel; }));
+    Bench bench(application, window);
+    Row clicks, frames, paths, vertices;
+    std::vector<double> renderers;
+    for (int i = 0; i < runs; ++i) {
+        const Pixel pixel{static_cast<std::uint32_t>(1 + i % 20), static_cast<std::uint32_t>(3 + i / 20)};
+        bench.run(clicks, [&] { QTest::mouseClick(&canvas, Qt::LeftButton, {}, canvas.transform().rectOf(pixel).center().toPoint()); },
+                  [&] { return !dataset.current().empty() && dataset.current().front()->pixels.front() == pixel; });
         renderers.push_back(dataset.current().front()->renderSeconds * 1e3);
-        frames.push_back(window.views().scene->lastFrameSeconds() * 1e3);
     }
     const PathSet& set = dataset.paths();
-    for (Index i = 0; i < kRuns; ++i) {
-        paths.push_back(measure([&] { selection.setPaths({pathId(set, i * 7)}); }, [] { return true; }));
-        waitFor([&] { return window.isSettled(); });
-        vertices.push_back(measure([&] { selection.setVertex(vertexId(set, set.vertices(i * 7).first + 3)); }, [] { return true; }));
-        waitFor([&] { return window.isSettled(); });
+    for (int i = 0; i < runs; ++i) {
+        const Index path = Index(i * 7) % set.pathCount();
+        bench.run(frames, [&] { scene.requestFrame(); });
+        bench.run(paths, [&] { selection.setPaths({pathId(set, path)}); });
+        bench.run(frames, [&] { scene.requestFrame(); });
+        bench.run(vertices, [&] { selection.setVertex(vertexId(set, set.vertices(path).first + 3)); });
     }
-    std::printf("%u paths, %u vertices; the renderer's own time: %.1f ms\n", set.pathCount(), set.vertexCount(), median(renderers));
-    report("click to all views", clicks, median(frames));
-    report("select one path", paths, median(frames));
-    report("select one vertex", vertices, median(frames));
+    const double frame = median(frames.total);
+    std::printf("%u paths, %u vertices\n", set.pathCount(), set.vertexCount());
+    report("one 3D frame", frames, frame, 0);
+    report("click to all views", clicks, frame, median(renderers));
+    report("select one path", paths, frame, 0);
+    report("select one vertex", vertices, frame, 0);
     return 0;
 }

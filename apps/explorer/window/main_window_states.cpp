@@ -27,6 +27,8 @@ void MainWindow::connectSession() {
     });
     connect(&session_, &SessionController::activityChanged, this, [this] {
         showBusy();
+        if (session_.isLoadingScene()) views_.scene->showLoading(session_.sceneFraction());
+        else views_.scene->endLoading();
         updateActions();
     });
     connect(&session_, &SessionController::failed, this, &MainWindow::showFailure);
@@ -34,6 +36,7 @@ void MainWindow::connectSession() {
     connect(views_.history, &HistoryView::traceChosen, &session_, &SessionController::showTrace);
     connect(views_.history, &HistoryView::traceAgainWanted, &session_, &SessionController::traceAgain);
     connect(views_.image, &ImageView::traceAgainWanted, &session_, &SessionController::traceAgain);
+    connect(views_.scene, &SceneView::reloadRequested, &session_, &SessionController::reloadScene);
     connect(views_.scene, &SceneView::connectRequested, this, [this] { connectPanel_->openBelow(connectButton_); });
     std::vector<QWidget*> pathViews{views_.paths, views_.scene};
     for (const Views::Plot& plot : views_.plots) pathViews.push_back(plot.widget);
@@ -86,7 +89,11 @@ void MainWindow::showFailure(FailedTask task, const QString& sentence) {
             else toast_->showError(sentence, tr("Trace again"), [this] { session_.traceAgain(); });
             break;
         case FailedTask::render: toast_->showError(sentence, tr("Render again"), [this] { render(); }); break;
-        case FailedTask::scene: toast_->showError(sentence, tr("Load again"), [this] { session_.reloadScene(); }); break;
+        case FailedTask::scene:
+            views_.scene->showLoadError(sentence);
+            // With paths to show, the 3D view has no room for the sentence.
+            if (dataset_.meshes() || !dataset_.paths().empty()) toast_->showError(sentence, tr("Load again"), [this] { session_.reloadScene(); });
+            break;
         case FailedTask::openImage: toast_->showError(sentence, tr("Open another…"), [this] { openImageDialog(); }); break;
         case FailedTask::saveImage: toast_->showError(sentence, tr("Save elsewhere…"), [this] { saveImageDialog(); }); break;
     }
