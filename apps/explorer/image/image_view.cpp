@@ -15,12 +15,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/color_bar.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
 #include "emca/analysis/statistics.h"
-#include "image/color_bar.h"
 #include "image/image_canvas.h"
 #include "image/image_controls.h"
 

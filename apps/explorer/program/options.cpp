@@ -2,6 +2,7 @@
 
 #include <QFileInfo>
 #include <QRegularExpression>
+#include <cmath>
 
 #include "base/qt_compat.h"
 
@@ -34,6 +35,86 @@ Result<void> setTarget(Options& options, const QString& text) {
     return {};
 }
 
+/// Numbers with commas between them: exactly as many as asked for, finite.
+std::optional<std::vector<double>> numbers(const QString& text, int count) {
+    const QStringList parts = text.split(',');
+    if (parts.size() != count) return std::nullopt;
+    std::vector<double> values;
+    for (const QString& part : parts) {
+        bool ok = false;
+        values.push_back(part.trimmed().toDouble(&ok));
+        if (!ok || !std::isfinite(values.back())) return std::nullopt;
+    }
+    return values;
+}
+
+Result<void> setPlace(std::optional<Vec3d>& place, const QString& name, const QString& value) {
+    const auto xyz = numbers(value, 3);
+    if (!xyz) return usageError(name + " takes a place like 0,1.5,-3; \"" + value + "\" is none.");
+    place = Vec3d{(*xyz)[0], (*xyz)[1], (*xyz)[2]};
+    return {};
+}
+
+Result<void> setLimits(std::optional<SurfaceLimits>& limits, const QString& name, const QString& value, double least, double most) {
+    const auto ends = numbers(value, 2);
+    if (!ends || !((*ends)[0] < (*ends)[1]) || (*ends)[0] < least || (*ends)[1] > most)
+        return usageError(name + " takes two numbers, the lower one first, like 0.5,20; \"" + value + "\" is none.");
+    limits = SurfaceLimits{(*ends)[0], (*ends)[1]};
+    return {};
+}
+
+Result<void> setNumber(std::optional<float>& number, const QString& name, const QString& value, double least, double most) {
+    const auto typed = numbers(value, 1);
+    if (!typed || typed->front() < least || typed->front() > most)
+        return usageError(name + QStringLiteral(" takes a number from %1 to %2; \"").arg(least).arg(most) + value + "\" is none.");
+    number = static_cast<float>(typed->front());
+    return {};
+}
+
+/// Options of the 3D view and its layers. False if it is none of them.
+Result<bool> setSceneValue(Options& options, const QString& name, const QString& value) {
+    SceneWishes& scene = options.scene;
+    Result<void> done;
+    if (name == "--layers") {
+        for (const QString& layer : value.split(','))
+            if (!layer.trimmed().isEmpty()) scene.layers.push_back(layer.trimmed().toStdString());
+        if (scene.layers.empty()) done = usageError("--layers takes names of layers with commas between them, or all.");
+    } else if (name == "--show-layer") {
+        scene.showLayer = value.toStdString();
+    } else if (name == "--layer-range") {
+        done = setLimits(scene.range, name, value, -1e300, 1e300);
+    } else if (name == "--layer-percentiles") {
+        done = setLimits(scene.percentiles, name, value, 0, 100);
+    } else if (name == "--layer-map") {
+        scene.map = analysis::colorMapByName(value.toStdString());
+        QStringList names;
+        for (std::size_t i = 0; i < analysis::kColorMapCount; ++i) names += toQString(analysis::name(static_cast<analysis::ColorMapId>(i)));
+        if (!scene.map) done = usageError("--layer-map is one of " + names.join(", ") + ", not \"" + value + "\".");
+    } else if (name == "--layer-exposure") {
+        done = setNumber(scene.exposure, name, value, -30, 30);
+    } else if (name == "--opacity") {
+        done = setNumber(scene.opacity, name, value, 0, 1);
+    } else if (name == "--paths") {
+        if (value != "0" && value != "1") done = usageError("--paths is 0 or 1, not \"" + value + "\".");
+        scene.paths = value == "1";
+    } else if (name == "--eye") {
+        done = setPlace(scene.eye, name, value);
+    } else if (name == "--target") {
+        done = setPlace(scene.target, name, value);
+    } else if (name == "--fov") {
+        std::optional<float> degrees;
+        done = setNumber(degrees, name, value, 1, 170);
+        if (done) scene.fieldOfView = double(*degrees);
+    } else if (name == "--only") {
+        if (value != "scene") done = usageError("--only takes scene, not \"" + value + "\".");
+        options.onlyScene = true;
+    } else {
+        return false;
+    }
+    if (!done) return done.error();
+    return true;
+}
+
 Result<void> setValue(Options& options, const QString& name, const QString& value) {
     if (name == "--pixel" && value == "firefly") {
         options.firefly = true;
@@ -61,7 +142,9 @@ Result<void> setValue(Options& options, const QString& name, const QString& valu
     } else if (name == "--settings") {
         options.settings = value;
     } else {
-        return usageError("The option " + name + " is unknown; --help lists all.");
+        const auto known = setSceneValue(options, name, value);
+        if (!known) return known.error();
+        if (!*known) return usageError("The option " + name + " is unknown; --help lists all.");
     }
     return {};
 }
@@ -75,6 +158,8 @@ Result<Options> parseOptions(const QStringList& arguments) {
         Result<void> done;
         if (argument == "--help" || argument == "-h") {
             options.help = true;
+        } else if (argument == "--layer-log") {
+            options.scene.log = true;
         } else if (argument.startsWith("--") && argument.contains('=')) {
             done = setValue(options, argument.section('=', 0, 0), argument.section('=', 1));
         } else if (argument.startsWith("--")) {
@@ -87,6 +172,11 @@ Result<Options> parseOptions(const QStringList& arguments) {
     }
     if (!options.tour.isEmpty() && !options.address && !options.help)
         return usageError("--tour shows a renderer at work: give its HOST:PORT.");
+    if (options.onlyScene && options.screenshot.isEmpty() && !options.help)
+        return usageError("--only scene says what --screenshot shows: give its file too.");
+    // What shall be shown has to be collected.
+    if (options.scene.layers.empty() && !options.scene.showLayer.empty() && options.scene.showLayer != "none")
+        options.scene.layers = {options.scene.showLayer};
     return options;
 }
 
@@ -103,6 +193,20 @@ QString usage() {
         "  --size WxH           size of the window\n"
         "  --theme dark|light\n"
         "  --settings FILE      layout, theme and addresses from this file\n\n"
+        "Data on surfaces and the 3D view:\n"
+        "  --layers NAME,NAME   collect these layers in the first render; \"all\": every one that the renderer offers\n"
+        "  --show-layer NAME    colour the scene by this layer, or by none; without it the first one collected\n"
+        "  --layer-range LO,HI  values of the first and the last colour\n"
+        "  --layer-percentiles LO,HI  the same by shares of the area in percent; 1,99 without it\n"
+        "  --layer-log          logarithmic colours\n"
+        "  --layer-map NAME     viridis, plasma, inferno, magma, turbo, cividis, grey, redGreen, blueOrange\n"
+        "  --layer-exposure EV  of colour layers\n"
+        "  --opacity X          of the surfaces, 0 to 1\n"
+        "  --paths 0|1          draw the recorded paths and the camera, or not\n"
+        "  --eye X,Y,Z          look from there …\n"
+        "  --target X,Y,Z       … to there; without them as the renderer's camera\n"
+        "  --fov DEGREES        vertical field of view\n"
+        "  --only scene         the screenshot is one of the 3D view with its colour bar, --size pixels large\n\n"
         "Exit codes: 0 ok, 2 usage, 3 input, 4 connection, 5 server.\n");
 }
 

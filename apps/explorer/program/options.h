@@ -9,8 +9,25 @@
 #include "emca/client/connection.h"
 #include "emca/core/pixel.h"
 #include "emca/core/result.h"
+#include "emca/core/vector.h"
+#include "scene/surface_style.h"
 
 namespace emca::explorer {
+
+/// What the 3D view shall show; what is not given stays as it is.
+struct SceneWishes {
+    std::vector<std::string> layers;     ///< 3D data to collect while rendering; the one word "all": every one that there is
+    std::string showLayer;               ///< the one that colours the scene, "none" for none; empty: the first collected
+    std::optional<SurfaceLimits> range;  ///< of the colours
+    std::optional<SurfaceLimits> percentiles;  ///< in percent of the area, if there is no range
+    bool log = false;
+    std::optional<analysis::ColorMapId> map;
+    std::optional<float> exposure;       ///< of colour layers, in stops
+    std::optional<float> opacity;        ///< of the surfaces, in [0, 1]
+    std::optional<bool> paths;
+    std::optional<Vec3d> eye, target;    ///< where the view is and where it looks; world space
+    std::optional<double> fieldOfView;   ///< vertical, degrees
+};
 
 /// What was asked for on the command line.
 struct Options {
@@ -24,6 +41,8 @@ struct Options {
     std::optional<ThemeKind> theme;
     std::uint32_t samplesPerPixel = 0;   ///< 0: the scene's
     QString settings;                    ///< file in place of the person's settings
+    SceneWishes scene;
+    bool onlyScene = false;              ///< the screenshot is one of the 3D view alone
     bool help = false;
     bool unattended() const { return !screenshot.isEmpty() || !tour.isEmpty(); }
 };

@@ -2,7 +2,10 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <QMenuBar>
 #include <QSaveFile>
+#include <QStatusBar>
+#include <QToolBar>
 #include <algorithm>
 
 #include "base/qt_compat.h"
@@ -16,6 +19,7 @@
 #include "plots/path_plot.h"
 #include "program/tour_story.h"
 #include "scene/scene_view.h"
+#include "scene/surface_panel.h"
 #include "window/history_view.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
@@ -31,7 +35,8 @@ int codeOf(FailedTask task) {
     switch (task) {
         case FailedTask::connect: return 4;
         case FailedTask::openImage: case FailedTask::saveImage: return 3;
-        case FailedTask::render: case FailedTask::trace: case FailedTask::scene: return 5;
+        case FailedTask::render: case FailedTask::trace: case FailedTask::scene:
+        case FailedTask::surface: return 5;
     }
     return 5;
 }
@@ -50,6 +55,8 @@ Unattended::Unattended(Options options, client::Dataset& dataset, client::Select
 
 void Unattended::start() {
     if (options_.samplesPerPixel) window_.setSamples(options_.samplesPerPixel);
+    window_.views().surfaces->setWantedLayers(options_.scene.layers);
+    if (options_.onlyScene) onlyScene();
     if (!options_.image.isEmpty()) {
         session_.openImage(options_.image);
         // Before connecting, so that no image is rendered where one is there.
@@ -61,10 +68,64 @@ void Unattended::start() {
     if (options_.pixel || firefly) then([this] { selectPixel(); });
     if (options_.firefly) then([this] { selectSuspect(); });
     if (!options_.tour.isEmpty()) then([this] { tour(); });
-    if (!options_.screenshot.isEmpty()) then([this] {
-        if (!window_.grab().save(options_.screenshot)) end(3, tr("The picture could not be written to %1; check the folder and its ending.").arg(options_.screenshot));
-    });
+    then([this] { applyScene(); });
+    if (!options_.screenshot.isEmpty()) then([this] { screenshot(); });
     timer_.start();
+}
+
+/// The window shrinks to its 3D view, so that the picture is laid out for its size.
+void Unattended::onlyScene() {
+    for (const auto& [name, dock] : window_.docks()) dock->setVisible(name == "scene");
+    window_.menuBar()->hide();
+    window_.statusBar()->hide();
+    for (QToolBar* bar : window_.findChildren<QToolBar*>()) bar->hide();
+}
+
+void Unattended::applyScene() {
+    const SceneWishes& wishes = options_.scene;
+    SceneView& view = *window_.views().scene;
+    SurfaceModel& model = view.surfaces();
+    SurfaceStyle style = model.style();
+    if (!wishes.showLayer.empty()) style.layer = wishes.showLayer == "none" ? std::string() : wishes.showLayer;
+    if (!style.layer.empty() && (!model.surface() || !model.surface()->field->find(style.layer))) {
+        const QString sentence = tr("The layer \"%1\" was not collected, so it cannot be shown.").arg(toQString(style.layer));
+        if (options_.unattended()) end(5, sentence);
+        else window_.toast().showError(sentence);
+        return;
+    }
+    LayerStyle& layer = style.layers[style.layer];
+    layer.log = layer.log || wishes.log;
+    if (wishes.range) layer.limits = wishes.range;
+    if (wishes.percentiles) {
+        style.lower = wishes.percentiles->min / 100;
+        style.upper = wishes.percentiles->max / 100;
+    }
+    style.map = wishes.map.value_or(style.map);
+    style.exposure = wishes.exposure.value_or(style.exposure);
+    style.opacity = wishes.opacity.value_or(style.opacity);
+    model.setStyle(style);
+
+    SceneOptions options = view.options();
+    if (wishes.paths) {
+        options.paths = *wishes.paths ? PathChoice::all : PathChoice::none;
+        options.cameraGlyph = *wishes.paths;
+    }
+    if (wishes.opacity) options.surfaceOpacity = *wishes.opacity;
+    view.setOptions(options);
+    if (!wishes.eye && !wishes.target && !wishes.fieldOfView) return;
+    ViewPose pose = view.pose();
+    pose.verticalFieldOfView = wishes.fieldOfView.value_or(pose.verticalFieldOfView);
+    view.setPose(wishes.eye || wishes.target ? lookingAt(pose, wishes.eye.value_or(pose.position), wishes.target.value_or(pose.focus)) : pose);
+}
+
+void Unattended::screenshot() {
+    SceneView& view = *window_.views().scene;
+    if (options_.onlyScene) {
+        const auto saved = view.saveImage(options_.screenshot, options_.size.isValid() ? options_.size : view.size());
+        if (!saved) end(3, toQString(saved.error().message));
+    } else if (!window_.grab().save(options_.screenshot)) {
+        end(3, tr("The picture could not be written to %1; check the folder and its ending.").arg(options_.screenshot));
+    }
 }
 
 void Unattended::tick() {

@@ -31,6 +31,9 @@ class Unattended : public QObject {
     void end(int code, const QString& sentence = {});
     void selectPixel();
     void selectSuspect();
+    void onlyScene();
+    void applyScene();
+    void screenshot();
     void tour();
     void save(QWidget* widget, const QString& file, const QString& caption);
 

@@ -155,8 +155,7 @@ MeshLayer::~MeshLayer() {
 
 void MeshLayer::setMeshes(std::shared_ptr<PreparedMeshes> meshes) {
     meshes_ = std::move(meshes);
-    clayActor_->SetVisibility(meshes_ && meshes_->surfaces);
-    glowActor_->SetVisibility(meshes_ && meshes_->emitters);
+    updateVisibility();
     if (meshes_ && meshes_->surfaces) clay_->SetInputData(meshes_->surfaces);
     if (meshes_ && meshes_->emitters) glow_->SetInputData(meshes_->emitters);
     coarse_ = false;
@@ -168,6 +167,16 @@ void MeshLayer::setCoarse(bool coarse) {
     if (coarse == coarse_) return;
     coarse_ = coarse;
     clay_->SetInputData(coarse ? meshes_->standIn : meshes_->surfaces);
+}
+
+void MeshLayer::setCovered(bool covered) {
+    covered_ = covered;
+    updateVisibility();
+}
+
+void MeshLayer::updateVisibility() {
+    clayActor_->SetVisibility(meshes_ && meshes_->surfaces && opacity_ > 0 && !covered_);
+    glowActor_->SetVisibility(meshes_ && meshes_->emitters && !covered_);
 }
 
 void MeshLayer::apply(const SceneOptions& options, const ThemeColors& colors) {
@@ -182,7 +191,8 @@ void MeshLayer::apply(const SceneOptions& options, const ThemeColors& colors) {
     }
     clay_->backOpacity = options.backFaces == BackFaces::fade && !opaque ? 0.3f : 1.f;
     clayActor_->GetProperty()->SetOpacity(opaque ? 1.0 : opacity);
-    clayActor_->SetVisibility(meshes_ && meshes_->surfaces && opacity > 0);
+    opacity_ = opacity;
+    updateVisibility();
     // Lights stay visible longer than what they light, yet never hide what is behind them.
     glowActor_->GetProperty()->SetOpacity(opaque ? 1.0 : std::min(0.95, 0.45 + opacity));
     glow_->backOpacity = 0.6f;

@@ -35,6 +35,8 @@ class MeshLayer {
     void apply(const SceneOptions& options, const ThemeColors& colors);
     /// The stand-in takes the place of a scene that is slow to draw, as long as the camera moves.
     void setCoarse(bool coarse);
+    /// Something else draws the surfaces; creases stay.
+    void setCovered(bool covered);
     bool hasStandIn() const { return meshes_ && meshes_->standIn; }
     std::uint64_t skippedTriangles() const { return meshes_ ? meshes_->geometry.skippedTriangles : 0; }
     BoundingBox box() const { return meshes_ ? meshes_->geometry.box : BoundingBox(); }
@@ -51,7 +53,9 @@ class MeshLayer {
     vtkSmartPointer<ClayMapper> clay_, glow_;
     vtkNew<vtkActor> clayActor_, glowActor_;
     StrokeLayer edges_, emitterEdges_;
-    bool coarse_ = false;
+    void updateVisibility();
+    bool coarse_ = false, covered_ = false;
+    double opacity_ = 1;
     QColor edgeColor_, emitterColor_;
 };
 

@@ -31,12 +31,13 @@ std::string plain(const QString& text) { return text.toStdString(); }
 
 SceneView::Impl::Impl(SceneView& owner, client::Dataset& data, client::Selection& sel, Theme& look)
     : view(owner), dataset(data), selection(sel), theme(look), states(new StateOverlay(look, &owner)),
-      overlay(new SceneOverlay(look, &owner)) {
+      overlay(new SceneOverlay(look, &owner)), surfaces(data, look), bar(new ColorBar(look, &owner)) {
     if (hasOpenGl()) {
         canvas = new SceneCanvas(theme, &view);
         meshes = std::make_unique<MeshLayer>(canvas->surfaces(), canvas->strokes());
         glyphs = std::make_unique<GlyphLayer>(canvas->strokes());
         pathLayer = std::make_unique<PathLayer>(canvas->strokes());
+        heat = std::make_unique<HeatLayer>(canvas->surfaces());
         input = new SceneInput(*canvas, driver);
         connectInput();
         canvas->lower();
@@ -52,6 +53,7 @@ SceneView::Impl::Impl(SceneView& owner, client::Dataset& data, client::Selection
         loadMeshes();
         applyOptions();
     });
+    connectSurfaces();
 }
 
 void SceneView::Impl::connectInput() {
@@ -88,7 +90,7 @@ double SceneView::Impl::imageAspect() const {
     return 0;
 }
 
-Viewport SceneView::Impl::viewport() const { return {std::max(view.width(), 1), std::max(view.height(), 1)}; }
+Viewport SceneView::Impl::viewport() const { return {std::max(view.width() - barWidth(), 1), std::max(view.height(), 1)}; }
 
 Projection SceneView::Impl::projection() const { return Projection(driver.pose(), viewport()); }
 
@@ -110,13 +112,7 @@ ViewPose SceneView::Impl::homePose() const {
 BoundingBox SceneView::Impl::box() const { return meshes && !meshes->core().empty ? meshes->core() : pathBox; }
 
 /// The axis of the world that is nearest to up in the image: the camera's own is tilted where it looks down.
-Vec3d SceneView::Impl::upAxis() const {
-    const Vec3d up = home.up;
-    const std::size_t axis = std::abs(up.y) >= std::max(std::abs(up.x), std::abs(up.z)) ? 1 : std::abs(up.z) > std::abs(up.x) ? 2 : 0;
-    Vec3d result;
-    result[axis] = up[axis] < 0 ? -1 : 1;
-    return result;
-}
+Vec3d SceneView::Impl::upAxis() const { return nearestAxis(home.up); }
 
 void SceneView::Impl::goHome(bool immediate) {
     const ViewPose pose = homePose();
@@ -132,6 +128,7 @@ void SceneView::Impl::poseMoved(const ViewPose& pose) {
         settle.start();
         canvas->setPose(pose);
     }
+    probeSoon();
     updateOverlay();
     emit view.poseChanged();
 }
@@ -141,7 +138,8 @@ void SceneView::Impl::setCoarse(bool coarse) {
     isCoarse = coarse;
     meshes->setCoarse(coarse);
     pathLayer->setCoarse(coarse);
-    canvas->surfaces().SetUseFXAA(options.smoothEdges && !coarse);
+    heat->setCoarse(coarse);
+    updateAntiAliasing();
     canvas->requestRender();
 }
 
@@ -294,10 +292,11 @@ void SceneView::Impl::showPath(Index path, std::optional<Index> vertex, bool alw
 void SceneView::Impl::applyOptions() {
     if (canvas) {
         const ThemeColors& colors = theme.colors();
-        canvas->surfaces().SetUseFXAA(options.smoothEdges);
+        updateAntiAliasing();
         canvas->surfaces().SetUseDepthPeeling(options.depthPeeling);
         canvas->surfaces().SetMaximumNumberOfPeels(16);
         meshes->apply(options, colors);
+        heat->apply(options, surfaces.style().opacity, colors);
         pathLayer->apply(options, colors);
         glyphs->apply(options.cameraGlyph, colors);
         canvas->requestRender();
@@ -356,13 +355,15 @@ void SceneView::setOptions(const SceneOptions& options) {
 
 ViewPose SceneView::pose() const { return impl_->driver.target(); }
 void SceneView::setPose(const ViewPose& pose) { impl_->driver.moveTo(pose); }
-bool SceneView::isLoading() const { return impl_->loader.isLoading(); }
+bool SceneView::isLoading() const { return impl_->loader.isLoading() || impl_->surfaces.isPreparing(); }
 bool SceneView::isMoving() const { return impl_->driver.isMoving(); }
 double SceneView::lastFrameSeconds() const { return impl_->canvas ? impl_->canvas->lastFrameSeconds() : 0; }
 std::uint64_t SceneView::frameCount() const { return impl_->canvas ? impl_->canvas->frameCount() : 0; }
 void SceneView::requestFrame() {
     if (impl_->canvas) impl_->canvas->requestRender();
 }
+SurfaceModel& SceneView::surfaces() { return impl_->surfaces; }
+std::optional<SurfaceValue> SceneView::hoveredSurface() const { return impl_->probed; }
 void SceneView::resetCamera() { impl_->goHome(false); }
 void SceneView::back() { impl_->driver.back(); }
 
@@ -414,17 +415,23 @@ std::optional<QPointF> SceneView::screenPosition(const client::VertexId& vertex)
 QImage SceneView::renderImage(QSize size) {
     if (!impl_->canvas) return {};
     impl_->setCoarse(false);
-    QImage image = impl_->canvas->renderImage(size);
-    if (image.isNull()) return image;
-    // Overlays are laid out in the view's own pixels and enlarged with the lines.
+    // Overlays and the colour bar are laid out in the view's own pixels and enlarged with the lines.
     const double scale = impl_->canvas->height() > 0 ? std::max(1.0, double(size.height()) / impl_->canvas->height()) : 1;
-    OverlayContent content = impl_->overlayContent({int(size.width() / scale), int(size.height() / scale)});
+    const QSize inner(std::max(size.width() - int(impl_->barWidth() * scale), 1), size.height());
+    const QImage scene = impl_->canvas->renderImage(inner);
+    if (scene.isNull()) return scene;
+    QImage image(size, QImage::Format_RGB32);
+    image.fill(impl_->theme.colors().ground);
+    OverlayContent content = impl_->overlayContent({int(inner.width() / scale), int(inner.height() / scale)});
     content.hint.clear();
     content.card.reset();
     content.rectangle.reset();
     QPainter painter(&image);
+    painter.drawImage(0, 0, scene);
     painter.scale(scale, scale);
-    paintOverlay(painter, QSizeF(size) / scale, content, impl_->theme);
+    paintOverlay(painter, QSizeF(inner) / scale, content, impl_->theme);
+    if (impl_->barWidth() > 0)
+        paintColorBar(painter, QRectF(inner.width() / scale, 0, impl_->barWidth(), size.height() / scale), impl_->barContent(), impl_->theme);
     return image;
 }
 
@@ -442,10 +449,7 @@ Result<void> SceneView::saveImage(const QString& file, QSize size) {
 }
 
 void SceneView::resizeEvent(QResizeEvent*) {
-    if (impl_->canvas) impl_->canvas->setGeometry(rect());
-    impl_->overlay->setGeometry(rect());
-    if (!impl_->moved()) impl_->goHome(true);
-    impl_->updateOverlay();
+    impl_->arrange();
 }
 
 }  // namespace emca::explorer

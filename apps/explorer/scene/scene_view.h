@@ -12,6 +12,7 @@
 #include "emca/client/selection.h"
 #include "emca/core/result.h"
 #include "scene_options.h"
+#include "surface_model.h"
 #include "view_pose.h"
 
 namespace emca::explorer {
@@ -35,18 +36,23 @@ class SceneView : public QWidget {
     const SceneOptions& options() const;
     void setOptions(const SceneOptions& options);
 
+    /// 3D data on surfaces: which layer colours the scene, and how.
+    SurfaceModel& surfaces();
+    /// What the shown layer says under the cursor.
+    std::optional<SurfaceValue> hoveredSurface() const;
+
     /// Where the view looks from; at the end of a flight, if one is under way.
     ViewPose pose() const;
     void setPose(const ViewPose& pose);
 
     /// Pixel of the view at which a vertex is drawn; nothing if it is not loaded, has no place or is behind the eye.
     std::optional<QPointF> screenPosition(const client::VertexId& vertex) const;
-    /// The picture with labels and legend at any size. Empty without OpenGL.
+    /// The picture with labels, legend and colour bar at any size. Empty without OpenGL.
     QImage renderImage(QSize size);
     /// Writes a PNG. Errors: notSupported (no OpenGL), invalidArgument (size), fileUnwritable.
     Result<void> saveImage(const QString& file, QSize size);
 
-    bool isLoading() const;             ///< meshes are being prepared
+    bool isLoading() const;             ///< meshes or their layers are being prepared
     double lastFrameSeconds() const;    ///< time that the last frame took to draw; 0 without OpenGL
     std::uint64_t frameCount() const;   ///< frames drawn so far; 0 without OpenGL
     void requestFrame();                ///< draws another one although nothing changed

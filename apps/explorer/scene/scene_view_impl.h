@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "base/color_bar.h"
 #include "base/listeners.h"
 #include "camera_driver.h"
 #include "glyph_layer.h"
+#include "heat_layer.h"
 #include "mesh_layer.h"
 #include "mesh_loader.h"
 #include "path_layer.h"
@@ -16,13 +18,15 @@
 #include "scene_overlay.h"
 #include "scene_picker.h"
 #include "scene_view.h"
+#include "surface_model.h"
 
 namespace emca::explorer {
 
+class ColorBar;
 class StateOverlay;
 
 /// What a SceneView is made of. scene_view.cpp: models, camera, options; scene_view_pointer.cpp: what the mouse means;
-/// scene_view_overlay.cpp: what is written over the picture.
+/// scene_view_overlay.cpp: what is written over the picture; scene_view_surface.cpp: 3D data on surfaces.
 class SceneView::Impl {
   public:
     Impl(SceneView& owner, client::Dataset& data, client::Selection& sel, Theme& look);
@@ -69,6 +73,18 @@ class SceneView::Impl {
     void selectInside(QRectF rectangle, Qt::KeyboardModifiers modifiers);
     void menu(QPointF at, QPoint global);
 
+    // 3D data on surfaces.
+    void connectSurfaces();
+    void showSurface();               ///< another field
+    void showSurfaceStyle();
+    void arrange();                   ///< picture and colour bar
+    int barWidth() const;
+    ColorBarContent barContent() const;
+    void updateAntiAliasing();
+    void probeSoon();
+    void probe();
+    OverlayContent::Card surfaceCard(const SurfaceValue& value, QPointF at) const;
+
     // Overlay.
     void updateState();
     void updateOverlay();
@@ -90,6 +106,9 @@ class SceneView::Impl {
     std::unique_ptr<MeshLayer> meshes;
     std::unique_ptr<GlyphLayer> glyphs;
     std::unique_ptr<PathLayer> pathLayer;
+    std::unique_ptr<HeatLayer> heat;
+    SurfaceModel surfaces;
+    ColorBar* bar;                        ///< beside the picture, hidden without a layer
 
     PathSet paths;                        ///< shares its columns with the Dataset
     PathGeometry geometry;
@@ -97,6 +116,8 @@ class SceneView::Impl {
     ShownSelection shown;
     std::optional<Index> hovered;
     std::optional<QPointF> cursor;
+    QTimer probing;                       ///< one look-up of the surface under the cursor per turn
+    std::optional<SurfaceValue> probed;   ///< under the cursor, unless a vertex is
     Vec3d extentCentre;
     double extentRadius = 1;
     ViewPose home;                        ///< the renderer's camera; the view is there until somebody moves it

@@ -45,6 +45,8 @@ OverlayContent SceneView::Impl::overlayContent(Viewport size) const {
     }
     if (options.legend) content.legend = legendOf(pathLayer->roles(), theme.colors());
     QStringList caption;
+    if (surfaces.isColor())   // no bar says what it is
+        caption << surfaces.title() + QString("   ·   exposure %1 EV").arg(double(surfaces.style().exposure), 0, 'f', 1);
     if (options.paths == PathChoice::all && pathLayer->drawnPaths().size() < paths.pathCount())
         caption << QLocale::c().toString(qulonglong(pathLayer->drawnPaths().size())) + " of " +
                        count(paths.pathCount(), "path", "paths") + " drawn";
@@ -54,10 +56,11 @@ OverlayContent SceneView::Impl::overlayContent(Viewport size) const {
         caption << count(meshes->skippedTriangles(), "triangle", "triangles") + " with a faulty position left out";
     content.caption = caption.join("   ·   ");
     if (input && input->rectangleMode()) content.hint = "Drag a rectangle over vertices or paths   ·   Esc cancels";
-    else if (paths.empty() && dataset.meshes()) content.hint = "Click a pixel in the image to see its paths here";
+    else if (paths.empty() && dataset.meshes() && !surfaces.shown()) content.hint = "Click a pixel in the image to see its paths here";
     if (hovered)
         if (const auto s = projected.project(geometry.points[*hovered])) content.ring = QPointF(s->x, s->y);
     if (hovered && cursor) content.card = vertexCard(paths, *hovered, *cursor);
+    else if (probed && cursor) content.card = surfaceCard(*probed, *cursor);
     return content;
 }
 

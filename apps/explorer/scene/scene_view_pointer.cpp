@@ -58,6 +58,7 @@ void SceneView::Impl::hover(std::optional<QPointF> at) {
     std::optional<Index> vertex;
     if (at && !input->rectangleMode()) vertex = pickVertex(pickContext(), projection(), at->x(), at->y());
     if (canvas && !input->rectangleMode()) canvas->setCursor(vertex ? Qt::PointingHandCursor : Qt::ArrowCursor);
+    probeSoon();
     if (vertex == hovered && !vertex) return;
     selection.setHovered(vertex ? std::optional(vertexId(paths, *vertex)) : std::nullopt);
     updateOverlay();

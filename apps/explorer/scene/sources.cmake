@@ -2,6 +2,7 @@
 set(EMCA_SCENE_SOURCES
   scene/camera_driver.cpp scene/camera_driver.h
   scene/glyph_layer.cpp scene/glyph_layer.h
+  scene/heat_layer.cpp scene/heat_layer.h
   scene/mesh_geometry.cpp scene/mesh_geometry.h
   scene/mesh_layer.cpp scene/mesh_layer.h
   scene/mesh_loader.cpp scene/mesh_loader.h
@@ -16,9 +17,15 @@ set(EMCA_SCENE_SOURCES
   scene/scene_overlay.cpp scene/scene_overlay.h
   scene/scene_picker.cpp scene/scene_picker.h
   scene/scene_view.cpp scene/scene_view.h scene/scene_view_impl.h scene/scene_view_overlay.cpp scene/scene_view_pointer.cpp
+  scene/scene_view_surface.cpp
   scene/stroke.h
   scene/stroke_layer.cpp scene/stroke_layer.h
   scene/stroke_mapper.cpp scene/stroke_mapper.h
+  scene/surface_data.cpp scene/surface_data.h
+  scene/surface_model.cpp scene/surface_model.h
+  scene/surface_panel.cpp scene/surface_panel.h
+  scene/surface_picker.cpp scene/surface_picker.h
+  scene/surface_style.h
   scene/vertex_card.cpp scene/vertex_card.h
   scene/view_pose.cpp scene/view_pose.h)
 set(EMCA_SCENE_TESTS scene/camera_driver_test.cpp scene/mesh_geometry_test.cpp scene/path_geometry_test.cpp scene/picking_test.cpp

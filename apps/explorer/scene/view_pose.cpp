@@ -135,6 +135,22 @@ ViewPose poseOfBox(const BoundingBox& box, double viewAspect) {
     return pose;
 }
 
+Vec3d nearestAxis(Vec3d v) {
+    const std::size_t axis = std::abs(v.y) >= std::max(std::abs(v.x), std::abs(v.z)) ? 1 : std::abs(v.z) > std::abs(v.x) ? 2 : 0;
+    Vec3d result;
+    result[axis] = v[axis] < 0 ? -1 : 1;
+    return result;
+}
+
+ViewPose lookingAt(const ViewPose& pose, Vec3d eye, Vec3d target) {
+    if (!(length(target - eye) > 0)) return pose;
+    ViewPose result = pose;
+    result.position = eye;
+    result.focus = target;
+    result.up = orthogonal(normalize(target - eye), nearestAxis(pose.up));
+    return result;
+}
+
 double eased(double t) {
     t = std::clamp(t, 0.0, 1.0);
     return t * t * (3 - 2 * t);

@@ -65,6 +65,13 @@ ViewPose poseOfCamera(const Camera& camera, double imageAspect, double viewAspec
 /// Looks at the whole box from a corner, for a scene without a camera.
 ViewPose poseOfBox(const BoundingBox& box, double viewAspect);
 
+/// The axis of the world, with its sign, that is nearest to a direction; y of equally near ones.
+Vec3d nearestAxis(Vec3d direction);
+
+/// From one place to another, upright along the axis of the world that is nearest to the pose's up. Two equal places:
+/// the pose as it is.
+ViewPose lookingAt(const ViewPose& pose, Vec3d eye, Vec3d target);
+
 /// Eased movement between two poses, t in [0, 1]: rotation along the shortest arc, distance geometrically.
 ViewPose between(const ViewPose& a, const ViewPose& b, double t);
 

@@ -51,7 +51,7 @@ SessionController::SessionController(client::Dataset& dataset, client::Selection
 SessionController::~SessionController() { drop(); }
 
 bool SessionController::isIdle() const {
-    return !render_ && !trace_ && !scene_ && filesBeingRead_ == 0 && link_ != LinkState::connecting &&
+    return !render_ && !trace_ && !scene_ && !layers_ && filesBeingRead_ == 0 && link_ != LinkState::connecting &&
            link_ != LinkState::reconnecting;
 }
 
@@ -95,14 +95,15 @@ void SessionController::retryNow() {
 void SessionController::drop() {
     ++generation_;
     retry_.stop();
-    for (auto* activity : {&render_, &trace_, &scene_}) {
+    for (auto* activity : {&render_, &trace_, &scene_, &layers_}) {
         if (*activity) *(*activity)->cancel = true;
         activity->reset();
     }
     tracing_.reset();
     if (const auto gone = std::move(connection_)) workers_.start([gone] { gone->close(); });
     connection_.reset();
-    if (preview_) rendered(nullptr, Error{ErrorCode::cancelled, {}});
+    if (finished_) completeRender(std::nullopt);
+    else if (preview_) abandonRender(Error{ErrorCode::cancelled, {}});
     emit activityChanged();
 }
 
@@ -165,6 +166,7 @@ void SessionController::adopt(Opened opened) {
                       image->image->color.height() == opened.info.height;
     if (renderOnConnect_ && !fits) render(client::RenderOptions(renderOptions_));
     loadScene();
+    if (opened.info.surfaceRender != 0 && !render_) fetchLayers();
     ensureTraced(true);
 }
 

@@ -17,7 +17,7 @@ namespace emca::explorer {
 enum class LinkState { offline, connecting, connected, reconnecting };
 
 /// What a failure was about, so that the window can offer the right way on.
-enum class FailedTask { connect, render, trace, scene, openImage, saveImage };
+enum class FailedTask { connect, render, trace, scene, surface, openImage, saveImage };
 
 /// Everything between the models and the renderer: owns the connection, runs all requests and file access in other
 /// threads and puts what arrives into Dataset. GUI thread; no function blocks.
@@ -41,6 +41,8 @@ class SessionController : public QObject {
     bool isRendering() const { return render_ != nullptr; }
     bool isTracing() const { return trace_ != nullptr; }
     bool isLoadingScene() const { return scene_ != nullptr; }
+    /// Surface layers of a finished render are on their way.
+    bool isFetchingLayers() const { return finished_ || layers_; }
     bool isReadingFile() const { return filesBeingRead_ > 0; }
     /// Nothing is under way and nothing is waiting for a connection.
     bool isIdle() const;
@@ -56,7 +58,9 @@ class SessionController : public QObject {
     void connectTo(const emca::client::Address& address, const QString& token = {});
     void disconnectFromRenderer();
     void retryNow();
-    /// Zero samples: the scene's. A render that runs is cancelled first.
+    /// Zero samples: the scene's. A render that runs is cancelled first. Layers it asks for are collected meanwhile and
+    /// come into the Dataset together with the image; a render without layers keeps those that are there. The one word
+    /// "all" in the place of names: every layer that the renderer offers.
     void render(const emca::client::RenderOptions& options);
     void cancelRender();
     /// Asks again, also where the history has a reply.
@@ -97,7 +101,11 @@ class SessionController : public QObject {
     QString obstacle(Pixel pixel) const;
     client::TraceOptions traceOptions(Pixel pixel) const;
 
-    void rendered(std::shared_ptr<Activity> activity, Result<client::Render> result);
+    void rendered(const std::shared_ptr<Activity>& activity, bool withLayers, Result<client::Render> result);
+    void completeRender(std::optional<Result<SurfaceField>> surface);
+    void abandonRender(const Error& error);
+    std::optional<client::RenderOptions> withNamedLayers(client::RenderOptions options);
+    void fetchLayers();
     void drainPreview();
     void loadScene();
     void forgetRenderIds();
@@ -116,7 +124,8 @@ class SessionController : public QObject {
     QTimer retry_;
     bool renderOnConnect_ = true;
 
-    std::shared_ptr<Activity> render_, trace_, scene_;
+    std::shared_ptr<Activity> render_, trace_, scene_, layers_;
+    std::optional<client::Render> finished_;   ///< complete, waiting for its layers
     std::shared_ptr<RenderedImage> preview_;
     client::RenderOptions renderOptions_;
     int renderCount_ = 0, filesBeingRead_ = 0;

@@ -1,5 +1,6 @@
 // Renders, previews and image files of SessionController.
 #include <QFileInfo>
+#include <algorithm>
 
 #include "base/qt_compat.h"
 #include "emca/analysis/format.h"
@@ -29,12 +30,31 @@ std::optional<std::size_t> SessionController::indexOf(const std::shared_ptr<cons
     return std::nullopt;
 }
 
-void SessionController::render(const client::RenderOptions& options) {
-    renderOptions_ = options;
+/// "all" becomes names. Nothing, and a sentence to the person, if the renderer has none of them.
+std::optional<client::RenderOptions> SessionController::withNamedLayers(client::RenderOptions options) {
+    if (options.layers.empty()) return options;
+    const std::vector<LayerDescription>& offered = dataset_.info()->layers;
+    if (offered.empty()) {
+        emit failed(FailedTask::render, tr("Nothing was rendered: layers on surfaces were asked for, but %1 offers none. Render without "
+                                           "them, or with a renderer that collects data on surfaces.")
+                                            .arg(toQString(dataset_.info()->renderer)));
+        return std::nullopt;
+    }
+    const bool literal = std::ranges::any_of(offered, [](const LayerDescription& l) { return l.name == "all"; });
+    if (options.layers != std::vector<std::string>{"all"} || literal) return options;
+    options.layers.clear();
+    for (const LayerDescription& layer : offered) options.layers.push_back(layer.name);
+    return options;
+}
+
+void SessionController::render(const client::RenderOptions& wanted) {
+    renderOptions_ = wanted;
     if (!connection_ || !dataset_.info()) {
         emit failed(FailedTask::render, tr("Nothing was rendered: no renderer is connected. Connect to one first."));
         return;
     }
+    const auto options = withNamedLayers(wanted);
+    if (!options) return;
     cancelRender();
     auto activity = std::make_shared<Activity>();
     render_ = activity;
@@ -43,26 +63,41 @@ void SessionController::render(const client::RenderOptions& options) {
     preview_->color = Image(info.width, info.height);
     client::ImageEntry entry;
     entry.title = "Render " + std::to_string(++renderCount_) + ", rendering";
-    entry.samplesPerPixel = options.samplesPerPixel ? options.samplesPerPixel : info.samplesPerPixel;
+    entry.samplesPerPixel = options->samplesPerPixel ? options->samplesPerPixel : info.samplesPerPixel;
     entry.image = preview_;
     entry.preview = true;
     dataset_.addImage(std::move(entry));
     begin();
     workers_.run(
-        [connection = connection_, options, activity] {
+        [connection = connection_, options = *options, activity] {
             return connection->render(options, Activity::observer(activity, options.preview));
         },
-        [this, activity](Result<client::Render> result) {
-            if (activity == render_) rendered(activity, std::move(result));
+        [this, activity, withLayers = !options->layers.empty()](Result<client::Render> result) {
+            if (activity == render_) rendered(activity, withLayers, std::move(result));
         });
+}
+
+/// What the server still keeps of an earlier render, as after connecting anew.
+void SessionController::fetchLayers() {
+    auto activity = std::make_shared<Activity>();
+    layers_ = activity;
+    begin();
+    workers_.run([connection = connection_, activity] { return connection->surface(0, {}, Activity::observer(activity)); },
+                 [this, activity](Result<SurfaceField> result) {
+                     if (activity != layers_) return;
+                     layers_.reset();
+                     if (result) dataset_.setSurface(std::make_shared<const SurfaceField>(std::move(*result)));
+                     else if (result.error().code != ErrorCode::connectionLost) fail(FailedTask::surface, result.error());
+                     emit activityChanged();
+                 });
 }
 
 void SessionController::cancelRender() {
     if (!render_) return;
     *render_->cancel = true;
-    const auto activity = std::move(render_);
     render_.reset();
-    rendered(activity, Error{ErrorCode::cancelled, {}});
+    if (finished_) return completeRender(std::nullopt);
+    abandonRender(Error{ErrorCode::cancelled, {}});
 }
 
 void SessionController::drainPreview() {
@@ -79,20 +114,49 @@ void SessionController::drainPreview() {
     if (!tiles.empty() && current && current->image == preview_) dataset_.pixelsChanged();
 }
 
-void SessionController::rendered(std::shared_ptr<Activity> activity, Result<client::Render> result) {
+void SessionController::rendered(const std::shared_ptr<Activity>& activity, bool withLayers, Result<client::Render> result) {
+    if (!result) return abandonRender(result.error());
+    drainPreview();
+    lastRequest_ = tr("render in %1, renderer %2")
+                       .arg(toQString(analysis::formatDuration(double(activity->clock.nsecsElapsed()) * 1e-9)),
+                            toQString(analysis::formatDuration(result->seconds)));
+    finished_ = std::move(*result);
+    if (!withLayers) return completeRender(std::nullopt);
+    activity->fraction = -1;
+    workers_.run([connection = connection_, activity, id = finished_->id] { return connection->surface(id, {}, Activity::observer(activity)); },
+                 [this, activity](Result<SurfaceField> surface) {
+                     if (activity == render_) completeRender(std::move(surface));
+                 });
+    emit activityChanged();
+}
+
+/// The image, and its layers if there are any, come at once: views that show both change once.
+void SessionController::completeRender(std::optional<Result<SurfaceField>> surface) {
+    const auto index = indexOf(preview_);
+    render_.reset();
+    preview_.reset();
+    client::Render render = std::move(*finished_);
+    finished_.reset();
+    {
+        const client::Dataset::Transaction together(dataset_);
+        if (index) dataset_.replaceImage(*index, entryOf(std::move(render), renderCount_));
+        if (surface && *surface) {
+            layers_.reset();   // older ones on their way
+            dataset_.setSurface(std::make_shared<const SurfaceField>(std::move(**surface)));
+        }
+    }
+    emit renderFinished();
+    if (surface && !*surface) {
+        const ErrorCode code = surface->error().code;
+        if (code != ErrorCode::cancelled && code != ErrorCode::connectionLost) fail(FailedTask::surface, surface->error());
+    }
+    emit activityChanged();
+}
+
+void SessionController::abandonRender(const Error& error) {
     drainPreview();
     const auto index = indexOf(preview_);
     render_.reset();
-    if (result) {
-        lastRequest_ = tr("render in %1, renderer %2")
-                           .arg(toQString(analysis::formatDuration(double(activity->clock.nsecsElapsed()) * 1e-9)),
-                                toQString(analysis::formatDuration(result->seconds)));
-        preview_.reset();
-        if (index) dataset_.replaceImage(*index, entryOf(std::move(*result), renderCount_));
-        emit renderFinished();
-        emit activityChanged();
-        return;
-    }
     // What has arrived stays to look at; its missing pixels can be compared with nothing.
     if (index) {
         client::ImageEntry entry = dataset_.images()[*index];
@@ -101,8 +165,7 @@ void SessionController::rendered(std::shared_ptr<Activity> activity, Result<clie
         dataset_.replaceImage(*index, std::move(entry));
     }
     preview_.reset();
-    const ErrorCode code = result.error().code;
-    if (code != ErrorCode::cancelled && code != ErrorCode::connectionLost) fail(FailedTask::render, result.error());
+    if (error.code != ErrorCode::cancelled && error.code != ErrorCode::connectionLost) fail(FailedTask::render, error);
     emit activityChanged();
 }
 

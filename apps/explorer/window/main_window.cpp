@@ -18,6 +18,7 @@
 #include "paths/vertex_table.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
+#include "scene/surface_panel.h"
 #include "window/connect_panel.h"
 #include "window/history_view.h"
 #include "window/panel_dock.h"
@@ -29,7 +30,7 @@ namespace emca::explorer {
 namespace {
 
 /// Raised whenever docks are added or renamed: an older saved layout would hide the new ones.
-constexpr int kLayoutVersion = 1;
+constexpr int kLayoutVersion = 2;
 
 }  // namespace
 
@@ -99,6 +100,7 @@ void MainWindow::addDocks() {
     addDock(tr("Intersection"), "vertex", views_.vertex);
     addDock(tr("Outliers"), "outliers", views_.outliers);
     addDock(tr("History"), "history", views_.history);
+    addDock(tr("Surfaces"), "surfaces", views_.surfaceScroll);
     addDock(tr("3D options"), "sceneOptions", views_.sceneOptions);
     arrange();
 }
@@ -123,7 +125,8 @@ void MainWindow::arrange() {
     splitDockWidget(dock("paths"), dock("vertex"), Qt::Horizontal);
     splitDockWidget(scene, tools, Qt::Horizontal);
     tabifyDockWidget(tools, dock("history"));
-    tabifyDockWidget(dock("history"), dock("sceneOptions"));
+    tabifyDockWidget(dock("history"), dock("surfaces"));
+    tabifyDockWidget(dock("surfaces"), dock("sceneOptions"));
     for (const auto& [name, made] : docks_) made->show();
 
     const int w = width(), h = height() - 120;
@@ -198,6 +201,7 @@ void MainWindow::connectTo(const client::Address& address, const QString& token)
     toast_->clear();
     client::RenderOptions options;
     if (samplesChosen_) options.samplesPerPixel = static_cast<std::uint32_t>(samples_->value());
+    options.layers = views_.surfaces->wantedLayers();
     session_.setRenderOptions(options);
     session_.connectTo(address, token);
 }
@@ -205,6 +209,7 @@ void MainWindow::connectTo(const client::Address& address, const QString& token)
 void MainWindow::render() {
     client::RenderOptions options;
     options.samplesPerPixel = static_cast<std::uint32_t>(samples_->value());
+    options.layers = views_.surfaces->wantedLayers();
     session_.render(options);
 }
 

@@ -13,6 +13,7 @@
 #include "image/image_view.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
+#include "scene/surface_panel.h"
 #include "window/connect_panel.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
@@ -79,7 +80,7 @@ void MainWindow::addMenus() {
     addAction(view, "falseColor", tr("False colour"), QKeySequence("C"), [this] { views_.image->controls().toggleFalseColor(); });
     addAction(view, "nextInvalid", tr("Next NaN, infinite or negative pixel"), QKeySequence("N"), [this] { views_.image->goToNextInvalid(); });
     view->addSeparator();
-    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "history", "sceneOptions"})
+    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "history", "surfaces", "sceneOptions"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
     for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
     addAction(view, "resetLayout", tr("Reset layout"), {}, [this] { resetLayout(); });
@@ -154,6 +155,7 @@ void MainWindow::updateActions() {
     const bool connected = session_.link() == LinkState::connected, paths = !dataset_.paths().empty();
     action("disconnect")->setEnabled(session_.link() != LinkState::offline);
     action("render")->setEnabled(connected);
+    views_.surfaces->setCanRender(connected);
     action("cancel")->setEnabled(session_.isRendering());
     action("traceAgain")->setEnabled(connected && selection_.state().pixel.has_value());
     action("reloadScene")->setEnabled(connected);

@@ -6,6 +6,7 @@
 #include "paths/path_tree.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
+#include "scene/surface_panel.h"
 #include "window/connect_panel.h"
 #include "window/history_view.h"
 #include "window/main_window.h"
@@ -38,6 +39,7 @@ void MainWindow::connectSession() {
     connect(views_.image, &ImageView::traceAgainWanted, &session_, &SessionController::traceAgain);
     connect(views_.scene, &SceneView::reloadRequested, &session_, &SessionController::reloadScene);
     connect(views_.scene, &SceneView::connectRequested, this, [this] { connectPanel_->openBelow(connectButton_); });
+    connect(views_.surfaces, &SurfacePanel::renderWanted, this, &MainWindow::render);
     std::vector<QWidget*> pathViews{views_.paths, views_.scene};
     for (const Views::Plot& plot : views_.plots) pathViews.push_back(plot.widget);
     for (QWidget* view : pathViews) busy_.push_back({view, new StateOverlay(theme_, view)});
@@ -94,6 +96,7 @@ void MainWindow::showFailure(FailedTask task, const QString& sentence) {
             // With paths to show, the 3D view has no room for the sentence.
             if (dataset_.meshes() || !dataset_.paths().empty()) toast_->showError(sentence, tr("Load again"), [this] { session_.reloadScene(); });
             break;
+        case FailedTask::surface: toast_->showError(tr("The layers did not come: %1").arg(sentence), tr("Render again"), [this] { render(); }); break;
         case FailedTask::openImage: toast_->showError(sentence, tr("Open another…"), [this] { openImageDialog(); }); break;
         case FailedTask::saveImage: toast_->showError(sentence, tr("Save elsewhere…"), [this] { saveImageDialog(); }); break;
     }

@@ -112,7 +112,7 @@ void StatusStrip::showActivity() {
         fraction = session_.traceFraction();
     } else if (session_.isRendering()) {
         fraction = session_.renderFraction();
-        text = fraction >= 0 ? tr("Rendering %1 %").arg(static_cast<int>(fraction * 100), 3) : tr("Rendering");
+        text = session_.isFetchingLayers() ? tr("Fetching layers") : fraction >= 0 ? tr("Rendering %1 %").arg(static_cast<int>(fraction * 100), 3) : tr("Rendering");
     } else if (session_.isReadingFile()) {
         text = tr("Reading the image");
         cancellable = false;

@@ -13,20 +13,30 @@
 #include "plots/luminance_plot.h"
 #include "scene/scene_options_panel.h"
 #include "scene/scene_view.h"
+#include "scene/surface_panel.h"
 #include "window/history_view.h"
 
 namespace emca::explorer {
+namespace {
+
+QWidget* scrolled(QWidget* content) {
+    auto* scroll = new QScrollArea;
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setWidget(content);
+    return scroll;
+}
+
+}  // namespace
 
 Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme& theme) {
     Views views;
     views.image = new ImageView(dataset, selection, theme);
     views.scene = new SceneView(dataset, selection, theme);
-    auto* scroll = new QScrollArea;
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    scroll->setWidget(new SceneOptionsPanel(*views.scene, theme));
-    views.sceneOptions = scroll;
+    views.sceneOptions = scrolled(new SceneOptionsPanel(*views.scene, theme));
+    views.surfaces = new SurfacePanel(dataset, views.scene->surfaces(), theme);
+    views.surfaceScroll = scrolled(views.surfaces);
     views.paths = new PathTree(dataset, selection, theme);
     views.vertex = new VertexTable(dataset, selection, theme);
     views.outliers = new OutlierPanel(dataset, selection, theme);

@@ -15,6 +15,7 @@ class OutlierPanel;
 class PathPlot;
 class PathTree;
 class SceneView;
+class SurfacePanel;
 class Theme;
 class VertexTable;
 
@@ -27,6 +28,8 @@ struct Views {
     ImageView* image = nullptr;
     SceneView* scene = nullptr;
     QWidget* sceneOptions = nullptr;
+    SurfacePanel* surfaces = nullptr;     ///< inside surfaceScroll
+    QWidget* surfaceScroll = nullptr;
     PathTree* paths = nullptr;
     VertexTable* vertex = nullptr;
     HistoryView* history = nullptr;
