@@ -239,6 +239,21 @@ void ScatterPlot::findRanges() {
 }
 
 void ScatterPlot::layoutFrame() {
+    // Labels change the size of the canvas, and its size changes the labels: a layout that asks for another one from
+    // within must come to an end, also where the two never agree.
+    if (layingOut_) return;
+    layingOut_ = true;
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds; ++round) {
+        const QSize before = plot_->canvas()->contentsRect().size();
+        layoutOnce();
+        if (plot_->canvas()->contentsRect().size() == before) break;
+    }
+    layingOut_ = false;
+    emit axisWidthChanged();
+}
+
+void ScatterPlot::layoutOnce() {
     const QSizeF size = plot_->canvas()->contentsRect().size();
     const ValueRange x = xZoom_.value_or(xFull_), y = yZoom_.value_or(yFull_);
     const PlotFrame::Rows rows = PlotFrame::rowsFor(content_.ys, y);
@@ -261,7 +276,6 @@ void ScatterPlot::layoutFrame() {
     applyAxis(*plot_, QwtPlot::yLeft, frame.spannedY(), content_.yTicks, std::move(edges));
     applyAxis(*plot_, QwtPlot::xBottom, frame.spannedX(), content_.xTicks, {});
     refresh();
-    emit axisWidthChanged();
 }
 
 void ScatterPlot::refresh() {

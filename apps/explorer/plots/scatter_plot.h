@@ -99,6 +99,7 @@ class ScatterPlot : public QWidget {
     enum class Drag { none, pressed, rectangle, moving };
     void restyle();
     void findRanges();   ///< default ranges of the points
+    void layoutOnce();
     void layoutFrame();  ///< frame, ticks and axes for the current ranges and size
     void refresh();      ///< draws points and histogram again
     void replotCanvas();
@@ -120,7 +121,7 @@ class ScatterPlot : public QWidget {
     std::optional<analysis::ValueRange> xZoom_, yZoom_;
     bool log_ = false, logAllowed_ = true, meanShown_ = true, xLabels_ = true;
     std::optional<std::uint32_t> hovered_;
-    bool hoveredHere_ = false;
+    bool hoveredHere_ = false, layingOut_ = false;
     Drag drag_ = Drag::none;
     bool rectangleKey_ = false, ignoreRelease_ = false;
     QPointF pressedAt_, lastAt_;
