@@ -83,6 +83,18 @@ PathSet sparse(std::size_t count = 20) {
     return pathsWithEstimates(estimates, {1, 2, 5});
 }
 
+/// Labels at the end of an axis and the width of the canvas depend on each other.
+TEST(PathPlot, EveryWidthSettles) {
+    for (const std::size_t count : {std::size_t(20), std::size_t(128), std::size_t(1024)}) {
+        Bench<LuminancePlot> bench(sparse(count));
+        for (int width = 320; width < 1000; width += 3) {
+            bench.plot.resize(width, 300);
+            QCoreApplication::sendPostedEvents();
+            ASSERT_EQ(bench.plot.row(0).content().frame.canvas(), QSizeF(bench.plot.row(0).canvas()->size())) << width;
+        }
+    }
+}
+
 TEST(PathPlot, ClickSelectsExactlyThatPath) {
     Bench<ContributionPlot> bench(sparse());
     for (std::size_t row = 0; row < 3; ++row)

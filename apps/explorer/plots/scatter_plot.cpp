@@ -6,6 +6,7 @@
 #include <qwt_scale_widget.h>
 #include <QHBoxLayout>
 #include <QLocale>
+#include <QScopedValueRollback>
 #include <algorithm>
 #include <cmath>
 
@@ -239,21 +240,21 @@ void ScatterPlot::findRanges() {
 }
 
 void ScatterPlot::layoutFrame() {
-    // Labels change the size of the canvas, and its size changes the labels: a layout that asks for another one from
-    // within must come to an end, also where the two never agree.
-    if (layingOut_) return;
-    layingOut_ = true;
-    constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds; ++round) {
-        const QSize before = plot_->canvas()->contentsRect().size();
-        layoutOnce();
-        if (plot_->canvas()->contentsRect().size() == before) break;
+    if (layingOut_) return;  // a resize that comes of the loop below, which looks for it
+    {
+        const QScopedValueRollback<bool> guard(layingOut_, true);
+        // Qwt narrows the canvas for labels that stick out, and then other labels do. Each round lets fewer stand at the
+        // right end, so that this ends.
+        for (const int room : {2, 16, 64, 128}) {
+            const QSize before = plot_->canvas()->size();
+            layoutFrame(room);
+            if (plot_->canvas()->size() == before) break;
+        }
     }
-    layingOut_ = false;
     emit axisWidthChanged();
 }
 
-void ScatterPlot::layoutOnce() {
+void ScatterPlot::layoutFrame(int roomAtTheRight) {
     const QSizeF size = plot_->canvas()->contentsRect().size();
     const ValueRange x = xZoom_.value_or(xFull_), y = yZoom_.value_or(yFull_);
     const PlotFrame::Rows rows = PlotFrame::rowsFor(content_.ys, y);
@@ -261,10 +262,10 @@ void ScatterPlot::layoutOnce() {
     const PlotFrame& frame = content_.frame;
     content_.xTicks = ticksOf(x, xAxis_.integral, frame.x().end - frame.x().start, 80);
     content_.yTicks = ticksOf(y, yAxis_.integral && !log_, frame.y().start - frame.y().end, 20);
-    // A label that would stick out at the right would make this canvas narrower than those above it.
+    // A label that would stick out at the right would make this canvas narrower than those above it, too.
     const QFontMetrics metrics(theme_.smallNumberFont());
     for (analysis::Tick& tick : content_.xTicks)
-        if (frame.x().pixel(tick.value) + metrics.horizontalAdvance(tickText(tick.label)) / 2.0 > size.width() - 2)
+        if (frame.x().pixel(tick.value) + metrics.horizontalAdvance(tickText(tick.label)) / 2.0 > size.width() - roomAtTheRight)
             tick.label.clear();
     std::vector<EdgeLabel> edges;
     const auto edge = [&](PlotRow row, const QString& text, const QColor& color) {

@@ -99,8 +99,8 @@ class ScatterPlot : public QWidget {
     enum class Drag { none, pressed, rectangle, moving };
     void restyle();
     void findRanges();   ///< default ranges of the points
-    void layoutOnce();
     void layoutFrame();  ///< frame, ticks and axes for the current ranges and size
+    void layoutFrame(int roomAtTheRight);
     void refresh();      ///< draws points and histogram again
     void replotCanvas();
     bool press(QMouseEvent& event);
@@ -119,9 +119,9 @@ class ScatterPlot : public QWidget {
     ScatterContent content_;
     analysis::ValueRange xFull_, yFull_;
     std::optional<analysis::ValueRange> xZoom_, yZoom_;
-    bool log_ = false, logAllowed_ = true, meanShown_ = true, xLabels_ = true;
+    bool log_ = false, logAllowed_ = true, meanShown_ = true, xLabels_ = true, layingOut_ = false;
     std::optional<std::uint32_t> hovered_;
-    bool hoveredHere_ = false, layingOut_ = false;
+    bool hoveredHere_ = false;
     Drag drag_ = Drag::none;
     bool rectangleKey_ = false, ignoreRelease_ = false;
     QPointF pressedAt_, lastAt_;
