@@ -43,7 +43,9 @@ inline Ply parsePly(const std::string& bytes) {
         std::istringstream words(line);
         std::string word, type, name;
         words >> word >> type >> name;
-        if (word == "format") EXPECT_EQ(line, "format binary_little_endian 1.0");
+        if (word == "format") {
+            EXPECT_EQ(line, "format binary_little_endian 1.0");
+        }
         if (word == "element") {
             element = type;
             (type == "vertex" ? vertexCount : faceCount) = std::stoull(name);

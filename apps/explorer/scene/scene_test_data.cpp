@@ -177,7 +177,7 @@ Camera roomCamera() {
 PathSet roomPaths(std::uint32_t paths, std::uint32_t maximumDepth, float spread, bool closed) {
     const std::vector<Mesh> meshes = roomMeshes();
     std::vector<Mesh> walls = meshes;
-    if (closed) walls.push_back(quad("front", {0.7f}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}));
+    if (closed) walls.push_back(quad("front", Color(0.7f), {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}));
     const auto light = static_cast<std::int32_t>(meshes.size() - 1);
     std::mt19937 random(7);
     std::uniform_real_distribution<float> uniform(0, 1);
