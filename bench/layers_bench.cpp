@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -19,6 +20,7 @@ namespace {
 
 struct Run {
     double seconds = 0, finishSeconds = 0;
+    double processorSeconds = 0;  ///< of all threads: less disturbed by what else runs
     std::uint64_t points = 0, faces = 0, bytes = 0;
     Image color;
 };
@@ -29,10 +31,12 @@ Run render(const render::ImageRenderer& renderer, const render::RenderOptions& o
            const std::vector<LayerDescription>& layers) {
     Run run;
     const double begin = now();
+    const std::clock_t clock = std::clock();
     SurfaceRecorder recorder(meshes);
     for (const LayerDescription& layer : layers) recorder.addLayer(layer).value();
     auto image = renderer.renderImage(options, {}, layers.empty() ? nullptr : &recorder);
     run.seconds = now() - begin;
+    run.processorSeconds = double(std::clock() - clock) / CLOCKS_PER_SEC;
     run.color = std::move(image->color);
     if (layers.empty()) return run;
     const double end = now();
@@ -64,20 +68,21 @@ int run(int argc, char** argv) {
     const std::vector<LayerDescription>& all = render::surfaceLayers();
     const std::vector<std::vector<LayerDescription>> sets{{}, {all.front()}, all};
 
-    std::vector<std::vector<double>> seconds(sets.size()), ratios(sets.size());
+    std::vector<std::vector<double>> seconds(sets.size()), processor(sets.size()), ratios(sets.size());
     std::vector<Run> last(sets.size());
     render(renderer, options, meshes, {});
     for (int round = 0; round < number(3, 7); ++round) {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             last[i] = render(renderer, options, meshes, sets[i]);
             seconds[i].push_back(last[i].seconds);
-            ratios[i].push_back(last[i].seconds / seconds[0].back());
+            processor[i].push_back(last[i].processorSeconds);
+            ratios[i].push_back(last[i].processorSeconds / processor[0].back());
         }
     }
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const Image &a = last[0].color, &b = last[i].color;
-        std::printf("%zu layers: %.3f s, ratio %.3f; %.1f M points, %.2f M faces, %.0f MiB, finish %.0f ms, image %s\n",
-                    sets[i].size(), median(seconds[i]), median(ratios[i]), double(last[i].points) * 1e-6,
+        std::printf("%zu layers: %.3f s, of processors %.3f s, ratio %.3f; %.1f M points, %.2f M faces, %.0f MiB, finish %.0f ms, image %s\n",
+                    sets[i].size(), median(seconds[i]), median(processor[i]), median(ratios[i]), double(last[i].points) * 1e-6,
                     double(last[i].faces) * 1e-6, double(last[i].bytes) / (1 << 20), last[i].finishSeconds * 1e3,
                     std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0 ? "equal" : "DIFFERENT");
     }
