@@ -93,7 +93,7 @@ void putFaces(Bytes& out, const SurfaceField& field, const SurfaceLayerData& lay
 LayerPicture pictureOf(const SurfaceField& field, const SurfaceLayerData& layer, std::span<const Mesh> meshes) {
     LayerPicture picture;
     const std::vector<float> values = analysis::surfaceScalars(layer), areas = analysis::surfaceAreas(field, meshes);
-    picture.range = analysis::surfaceRange(values, areas);
+    picture.range = analysis::surfaceRange(values, areas, analysis::surfaceRangeOptions(layer.description.kind));
     picture.statistics = analysis::surfaceStatistics(values, areas);
     if (layer.description.kind == LayerKind::meanColor) {
         analysis::ToneMap tones;

@@ -43,5 +43,39 @@ TEST(Options, MistakesNameWhatIsWrong) {
     EXPECT_EQ(exitCode(missing.error()), 3);
 }
 
+TEST(Options, LayersAndTheSceneAlone) {
+    const auto options = parseOptions({"50013", "--layers", "hits, path depth", "--show-layer", "path depth", "--layer-range=-1,2.5", "--layer-log",
+                                       "--layer-map", "inferno", "--opacity", "0.5", "--paths", "0", "--eye", "1,2,-3.5", "--target", "0,0,0", "--fov", "35",
+                                       "--layer-exposure", "-2", "--layer-percentiles", "0,99.5", "--only", "scene", "--screenshot", "a.png"});
+    ASSERT_TRUE(options) << options.error().message;
+    const SceneWishes& scene = options->scene;
+    EXPECT_EQ(scene.layers, (std::vector<std::string>{"hits", "path depth"}));
+    EXPECT_EQ(scene.showLayer, "path depth");
+    EXPECT_EQ(scene.range, (SurfaceLimits{-1, 2.5}));
+    EXPECT_EQ(scene.percentiles, (SurfaceLimits{0, 99.5}));
+    EXPECT_TRUE(scene.log);
+    EXPECT_EQ(scene.map, analysis::ColorMapId::inferno);
+    EXPECT_EQ(scene.opacity, 0.5f);
+    EXPECT_EQ(scene.exposure, -2.f);
+    EXPECT_EQ(scene.paths, false);
+    EXPECT_EQ(scene.eye, (Vec3d{1, 2, -3.5}));
+    EXPECT_EQ(scene.target, (Vec3d{0, 0, 0}));
+    EXPECT_EQ(scene.fieldOfView, 35.0);
+    EXPECT_TRUE(options->onlyScene);
+    EXPECT_EQ(parseOptions({"50013", "--show-layer", "hits"})->scene.layers, std::vector<std::string>{"hits"}) << "shown is collected";
+    EXPECT_TRUE(parseOptions({"50013", "--show-layer", "none"})->scene.layers.empty());
+}
+
+TEST(Options, FaultyWishesAreUsageErrors) {
+    for (const QStringList& faulty : std::vector<QStringList>{{"--layers", ","}, {"--layer-range", "3"}, {"--layer-range", "3,1"}, {"--layer-range", "a,b"},
+                                                              {"--layer-percentiles", "-1,50"}, {"--layer-map", "rainbow"}, {"--opacity", "1.5"},
+                                                              {"--opacity", "nan"}, {"--paths", "yes"}, {"--eye", "1,2"}, {"--target", "1,2,inf"},
+                                                              {"--fov", "0"}, {"--only", "image"}, {"--only", "scene"}}) {
+        const auto options = parseOptions(QStringList{"50013"} + faulty);
+        ASSERT_FALSE(options) << faulty.join(' ').toStdString();
+        EXPECT_EQ(exitCode(options.error()), 2);
+    }
+}
+
 }  // namespace
 }  // namespace emca::explorer

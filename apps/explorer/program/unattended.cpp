@@ -104,6 +104,7 @@ void Unattended::applyScene() {
     style.exposure = wishes.exposure.value_or(style.exposure);
     style.opacity = wishes.opacity.value_or(style.opacity);
     model.setStyle(style);
+    if (!wishes.layers.empty() && !options_.onlyScene) window_.showDock("surfaces");
 
     SceneOptions options = view.options();
     if (wishes.paths) {

@@ -130,10 +130,18 @@ Result<std::shared_ptr<const PreparedSurface>> prepareSurface(std::shared_ptr<co
         numbers.statistics = analysis::surfaceStatistics(values, s->areas);
         numbers.lower = lower;
         numbers.upper = upper;
-        numbers.linear = analysis::surfaceRange(values, s->areas, {lower, upper, false});
-        numbers.log = analysis::surfaceRange(values, s->areas, {lower, upper, true});
+        numbers.linear = analysis::surfaceRange(values, s->areas, rangeOptions(layer.description.kind, lower, upper, false));
+        numbers.log = analysis::surfaceRange(values, s->areas, rangeOptions(layer.description.kind, lower, upper, true));
     }
     return std::shared_ptr<const PreparedSurface>(std::move(s));
+}
+
+analysis::SurfaceRangeOptions rangeOptions(LayerKind kind, double lower, double upper, bool log) {
+    analysis::SurfaceRangeOptions options = analysis::surfaceRangeOptions(kind);
+    options.lower = lower;
+    options.upper = upper;
+    options.log = log;
+    return options;
 }
 
 std::vector<analysis::Color8> coarseColors(const PreparedSurface& surface, std::span<const analysis::Color8> colors) {

@@ -56,6 +56,9 @@ Result<std::shared_ptr<const PreparedSurface>> prepareSurface(std::shared_ptr<co
                                                               std::shared_ptr<const SurfaceField> field, double lower,
                                                               double upper, const std::atomic<bool>* cancel = nullptr);
 
+/// Which values count for the range of a layer.
+analysis::SurfaceRangeOptions rangeOptions(LayerKind kind, double lower, double upper, bool log);
+
 /// Colours of the stand-in's data faces: means of those that they take the place of.
 std::vector<analysis::Color8> coarseColors(const PreparedSurface& surface, std::span<const analysis::Color8> colors);
 

@@ -136,7 +136,7 @@ void SurfaceModel::recolor() {
     const std::span<const float> values = surface_->scalars(*index);
     if (chosen.limits) range_ = analysis::ValueRange{chosen.limits->min, chosen.limits->max, chosen.log}.repaired();
     else if (numbers.lower == style_.lower && numbers.upper == style_.upper) range_ = chosen.log ? numbers.log : numbers.linear;
-    else range_ = analysis::surfaceRange(values, surface_->areas, {style_.lower, style_.upper, chosen.log});
+    else range_ = analysis::surfaceRange(values, surface_->areas, rangeOptions(layer.description.kind, style_.lower, style_.upper, chosen.log));
     colors_ = analysis::surfaceColors(values, analysis::ColorMap::get(style_.map), range_);
 }
 

@@ -118,7 +118,7 @@ void SurfacePanel::addColors(QVBoxLayout* into) {
     });
     add(tr("Map"), map_, &scalarRows_);
     add(tr("Range"), rangeRow(), &scalarRows_);
-    add(tr("Area"), percentRow(), &scalarRows_);
+    add(tr("By area"), percentRow(), &scalarRows_);
 
     exposureValue_ = new QDoubleSpinBox;
     exposureValue_->setObjectName("layerExposureValue");

@@ -69,8 +69,9 @@ ValueRange surfaceRange(std::span<const float> values, std::span<const float> ar
     std::vector<Weighted> sorted;
     sorted.reserve(values.size());
     double total = 0;
+    const auto counts = [&](float v) { return std::isfinite(v) && (!options.log || v > 0) && (options.zeros || v != 0); };
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!std::isfinite(values[i]) || (options.log && values[i] <= 0)) continue;
+        if (!counts(values[i])) continue;
         const float weight = i < areas.size() ? areas[i] : areas.empty() ? 1.f : 0.f;
         if (!(weight > 0)) continue;
         sorted.push_back({values[i], weight});
@@ -78,7 +79,7 @@ ValueRange surfaceRange(std::span<const float> values, std::span<const float> ar
     }
     if (sorted.empty()) {
         // Values on faces without area only: they count alike.
-        const bool anywhere = std::any_of(values.begin(), values.end(), [&](float v) { return std::isfinite(v) && (!options.log || v > 0); });
+        const bool anywhere = std::any_of(values.begin(), values.end(), counts);
         if (!areas.empty() && anywhere) return surfaceRange(values, {}, options);
         return options.log ? ValueRange{1e-3, 1, true} : ValueRange{};
     }

@@ -110,6 +110,17 @@ TEST(SurfaceValues, RangeLeavesOutASpikeAndWhatIsNoNumber) {
     EXPECT_EQ(surfaceRange(values, areas), (ValueRange{1, 2, false}));
 }
 
+TEST(SurfaceValues, WhereNothingHappenedNeedNotCount) {
+    // A density on one face of a hundred: by all of the area its range would be that of nothing.
+    std::vector<float> values(1000, 0.f);
+    for (int i = 0; i < 5; ++i) values[static_cast<std::size_t>(i)] = float(i + 1);
+    SurfaceRangeOptions options;
+    EXPECT_LT(surfaceRange(values, {}, options).max, 1.5);
+    options.zeros = false;
+    EXPECT_EQ(surfaceRange(values, {}, options), (ValueRange{1, 5, false}));
+    EXPECT_TRUE(surfaceRange(std::vector<float>(10, 0.f), {}, options).isValid());
+}
+
 TEST(SurfaceValues, RangeIsAlwaysValid) {
     const std::vector<std::vector<float>> cases{{}, {kNaN}, {0, 0}, {-5}, {INFINITY}, {0, 1e-30f}, {-1, -2}, {3, 3, 3}};
     for (const auto& values : cases) {

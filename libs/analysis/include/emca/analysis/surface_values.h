@@ -27,7 +27,15 @@ std::vector<float> surfaceScalars(const SurfaceLayerData& layer);
 struct SurfaceRangeOptions {
     double lower = 0.01, upper = 0.99;  ///< share of the area with values below the range's begin and below its end
     bool log = false;                   ///< values <= 0 do not count
+    bool zeros = true;                  ///< false: values of 0 do not count. For sums and densities, where most of a scene may
+                                        ///< have none and the rest is what one looks at
 };
+/// As all views and files choose the range of a layer: zeros count for means only.
+constexpr SurfaceRangeOptions surfaceRangeOptions(LayerKind kind) {
+    SurfaceRangeOptions options;
+    options.zeros = kind == LayerKind::mean || kind == LayerKind::meanColor;
+    return options;
+}
 /// Range for a colour bar: quantiles of the finite values, weighted by area so that it does not depend on how finely
 /// faces are divided. Always valid; [0, 1] (log: [1e-3, 1]) where there is nothing to go by.
 /// \param areas  one per value, or empty: all weigh the same
