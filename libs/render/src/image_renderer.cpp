@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -51,6 +52,15 @@ struct ChannelSums {
 
 }  // namespace
 
+/// What a pixel's samples have added up to so far, always in the order of their indices.
+struct ImageRenderer::PixelSums {
+    ChannelSums red, green, blue;
+    void add(Color radiance) { red.add(radiance.r), green.add(radiance.g), blue.add(radiance.b); }
+    Color mean(double count) const { return {red.mean(count), green.mean(count), blue.mean(count)}; }
+    /// Unbiased, of the samples.
+    Color variance(double count) const { return {red.variance(count), green.variance(count), blue.variance(count)}; }
+};
+
 RenderOptions sceneOptions(const Scene& scene) {
     return {scene.samplesPerPixel(), scene.sampler(), 0, scene.integrator()};
 }
@@ -75,48 +85,56 @@ Color ImageRenderer::samplePixel(Pixel pixel, std::uint32_t index, Sampler& samp
     return integrator.radiance(ray, sampler, emca, surface);
 }
 
-ImageRenderer::PixelEstimate ImageRenderer::estimatePixel(Pixel pixel, const RenderOptions& options,
-                                                          const RenderCallbacks& callbacks,
-                                                          SurfaceTally* surface) const {
+bool ImageRenderer::addSamples(Pixel pixel, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,
+                               SurfaceTally* surface, PixelSums& sums) const {
     const PathIntegrator integrator(*scene_, options.integrator);
     Sampler sampler(options.sampler, options.seed);
     emca::PathRecorder& emca = emca::recorder();
-
-    ChannelSums red, green, blue;
-    for (std::uint32_t index = 0; index < options.samplesPerPixel; ++index) {
+    for (std::uint32_t index = pass.first; index < pass.last; ++index) {
         if (index % kSamplesBetweenChecks == kSamplesBetweenChecks - 1 && callbacks.cancelled &&
             callbacks.cancelled()) {
-            PixelEstimate incomplete;
-            incomplete.complete = false;
-            return incomplete;
+            return false;
         }
-        const Color radiance = samplePixel(pixel, index, sampler, integrator, emca, surface);
-        red.add(radiance.r), green.add(radiance.g), blue.add(radiance.b);
+        sums.add(samplePixel(pixel, index, sampler, integrator, emca, surface));
     }
     emca.endPath();
-    const double count = options.samplesPerPixel;
-    return {{red.mean(count), green.mean(count), blue.mean(count)},
-            {red.variance(count), green.variance(count), blue.variance(count)},
-            true};
+    return true;
 }
 
-bool ImageRenderer::renderTile(PixelRect tile, const RenderOptions& options, const RenderCallbacks& callbacks,
-                               SurfaceTally* surface, RenderedImage& image) const {
+bool ImageRenderer::renderTile(PixelRect tile, Pass pass, const RenderOptions& options,
+                               const RenderCallbacks& callbacks, SurfaceTally* surface, PixelSums* kept,
+                               RenderedImage& image) const {
     std::vector<Color> colors;
-    if (callbacks.tileDone) colors.reserve(tile.count());
+    const bool shows = callbacks.tileDone && pass.shows;
+    if (shows) colors.reserve(tile.count());
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             if (callbacks.cancelled && callbacks.cancelled()) return false;
-            const PixelEstimate estimate = estimatePixel({x, y}, options, callbacks, surface);
-            if (!estimate.complete) return false;
-            image.color.setColor({x, y}, estimate.mean);
-            image.variance.setColor({x, y}, estimate.variance);
-            *image.samples.at({x, y}) = static_cast<float>(options.samplesPerPixel);
-            if (callbacks.tileDone) colors.push_back(estimate.mean);
+            PixelSums fresh;
+            PixelSums& sums = kept ? kept[std::size_t(y) * image.color.width() + x] : fresh;
+            if (!addSamples({x, y}, pass, options, callbacks, surface, sums)) return false;
+            const Color mean = sums.mean(pass.last);
+            image.color.setColor({x, y}, mean);
+            image.variance.setColor({x, y}, sums.variance(pass.last));
+            *image.samples.at({x, y}) = static_cast<float>(pass.last);
+            if (shows) colors.push_back(mean);
         }
     }
-    if (callbacks.tileDone) callbacks.tileDone(tile, colors);
+    if (shows) callbacks.tileDone(tile, colors);
     return true;
+}
+
+/// A tile's samples all at once are best for the caches. But a face on which samples are collected hands those that it
+/// had before it was divided down by the density of those after: they must not come from another part of it. So then
+/// every pass takes one sample of all pixels.
+std::vector<ImageRenderer::Pass> ImageRenderer::passes(std::uint32_t samplesPerPixel, bool collects) {
+    if (!collects) return {{0, samplesPerPixel, true}};
+    std::vector<Pass> all;
+    for (std::uint32_t first = 0; first < samplesPerPixel; ++first) {
+        const std::uint32_t last = first + 1;
+        all.push_back({first, last, std::has_single_bit(last) || last == samplesPerPixel});
+    }
+    return all;
 }
 
 Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, const RenderCallbacks& callbacks,
@@ -126,26 +144,33 @@ Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, c
     RenderedImage image{Image(width, height), Image(width, height, {"samples"}), Image(width, height)};
     const std::uint32_t columns = (width + kTileSize - 1) / kTileSize, rows = (height + kTileSize - 1) / kTileSize;
     const std::uint32_t tiles = columns * rows;
-    std::atomic<std::uint32_t> done = 0;
+    std::atomic<std::uint64_t> done = 0;  // samples per pixel, summed over tiles
     std::atomic<bool> stop = false;
     const std::optional<SurfaceLayers> layers = surface ? std::optional<SurfaceLayers>(*surface) : std::nullopt;
+    std::vector<PixelSums> kept(layers ? std::size_t(width) * height : 0);
 
     tbb::task_arena arena(threads_);
-    arena.execute([&] {
+    for (const Pass pass : passes(options.samplesPerPixel, layers.has_value())) {
         const auto renderTiles = [&](const tbb::blocked_range<std::uint32_t>& range) {
             for (std::uint32_t i = range.begin(); i < range.end() && !stop; ++i) {
                 const std::uint32_t x = i % columns * kTileSize, y = i / columns * kTileSize;
                 const PixelRect tile{x, y, std::min(x + kTileSize, width), std::min(y + kTileSize, height)};
                 std::optional<SurfaceTally> tally;
                 if (layers) tally.emplace(*layers);
-                if (!renderTile(tile, options, callbacks, tally ? &*tally : nullptr, image)) stop = true;
-                const std::uint32_t finished = ++done;
-                if (callbacks.progress && !stop) callbacks.progress(double(finished) / tiles);
+                if (!renderTile(tile, pass, options, callbacks, tally ? &*tally : nullptr,
+                                layers ? kept.data() : nullptr, image)) {
+                    stop = true;
+                }
+                const std::uint64_t finished = done += pass.last - pass.first;
+                if (callbacks.progress && !stop)
+                    callbacks.progress(double(finished) / (double(tiles) * options.samplesPerPixel));
             }
         };
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tiles, 1), renderTiles, tbb::simple_partitioner());
-    });
-    if (stop) return cancelledError();
+        arena.execute([&] {
+            tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tiles, 1), renderTiles, tbb::simple_partitioner());
+        });
+        if (stop) return cancelledError();
+    }
     return image;
 }
 
@@ -158,9 +183,9 @@ Result<Color> ImageRenderer::renderPixel(Pixel pixel, const RenderOptions& optio
                          "): the image has " + std::to_string(scene_->width()) + " x " +
                          std::to_string(scene_->height()) + " pixels."};
     }
-    const PixelEstimate estimate = estimatePixel(pixel, options, callbacks, nullptr);
-    if (!estimate.complete) return cancelledError();
-    return estimate.mean;
+    PixelSums sums;
+    if (!addSamples(pixel, {0, options.samplesPerPixel}, options, callbacks, nullptr, sums)) return cancelledError();
+    return sums.mean(options.samplesPerPixel);
 }
 
 }  // namespace emca::render

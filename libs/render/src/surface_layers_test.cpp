@@ -172,6 +172,41 @@ TEST(SurfaceLayersOnAnalyticShapes, PointsAreLocatedOnTheFaceBelowThem) {
     }
 }
 
+/// A camera that looks straight at a plane covers it evenly. So must the density be, although an image is rendered tile by
+/// tile: what a face had before it was divided must not have come from one corner of it.
+TEST(SurfaceLayersTruth, DensityDoesNotShowTheOrderOfTiles) {
+    const auto scene = testing::sceneFromText(
+        R"(<integrator type="path"><integer name="max_depth" value="1"/></integrator>
+        <sensor type="perspective"><float name="fov" value="40"/>
+        <transform name="to_world"><lookat origin="0,0,2.5" target="0,0,0" up="0,1,0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="96"/><integer name="height" value="96"/><rfilter type="box"/></film>
+        <sampler type="independent"><integer name="sample_count" value="64"/></sampler></sensor>
+        <shape type="rectangle"/>)");
+    const SurfaceField field = collect(scene, testing::optionsWith(*scene, 64), 2);
+    const SurfaceLayerData& density = layer(field, "intersection density");
+    ASSERT_GT(density.samples, 96u * 96u * 50u);
+    const std::vector<Mesh> meshes = scene->meshes();
+    const auto refined = refine(meshes[0], field.meshes[0].subdivision);
+    ASSERT_TRUE(refined.ok());
+    const float seen = 2.5f * std::tan(20.f * 3.14159265f / 180);  // half of what the camera sees of the plane
+    double squares = 0, faces = 0, points = 0;
+    for (std::uint32_t face = 0; face < field.meshes[0].faceCount; ++face) {
+        const Triangle t = refined->triangles[face];
+        bool inside = true;
+        for (const std::uint32_t v : t) {
+            const Vec3f p = refined->positions[v];
+            inside &= std::abs(p.x) < 0.95f * seen && std::abs(p.y) < 0.95f * seen;
+        }
+        if (!inside) continue;
+        const double expected = double(density.samples) / (4 * double(seen) * double(seen));
+        const double off = double(field.value(density, 0, face)) / expected - 1;
+        squares += off * off, ++faces, points += double(field.points[face]);
+    }
+    ASSERT_GT(faces, 500);
+    // As if every face had counted its points alone: noise of one over the root of their number.
+    EXPECT_LT(std::sqrt(squares / faces), 1.15 / std::sqrt(points / faces));
+}
+
 /// Mean reflected radiance on a diffuse wall is what a camera that looks at the wall sees.
 TEST(SurfaceLayersTruth, ReflectedRadianceIsWhatACameraSees) {
     const auto scene = loadScene(std::string(EMCA_SOURCE_DIR) + "/scenes/cornell-box/scene.xml", {{}, 128, 128});

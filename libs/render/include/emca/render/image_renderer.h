@@ -55,19 +55,22 @@ class ImageRenderer {
     int threads() const { return threads_; }
 
   private:
-    /// A pixel as the film holds it.
-    struct PixelEstimate {
-        Color mean;
-        Color variance;  ///< unbiased, of the samples
-        bool complete = true;
+    struct PixelSums;
+    /// Part of an image's samples: the same for all pixels.
+    struct Pass {
+        std::uint32_t first = 0, last = 0;  ///< sample indices
+        bool shows = true;                  ///< tiles are told of after it
     };
-    PixelEstimate estimatePixel(Pixel pixel, const RenderOptions& options, const RenderCallbacks& callbacks,
-                                SurfaceTally* surface) const;
+    /// \return false if cancelled
+    bool addSamples(Pixel pixel, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,
+                    SurfaceTally* surface, PixelSums& sums) const;
     Color samplePixel(Pixel pixel, std::uint32_t index, Sampler& sampler, const PathIntegrator& integrator,
                       emca::PathRecorder& emca, SurfaceTally* surface) const;
+    /// \param kept  sums of the passes before, for all pixels of the image; null: this pass is all
     /// \return false if cancelled
-    bool renderTile(PixelRect tile, const RenderOptions& options, const RenderCallbacks& callbacks,
-                    SurfaceTally* surface, RenderedImage& image) const;
+    bool renderTile(PixelRect tile, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,
+                    SurfaceTally* surface, PixelSums* kept, RenderedImage& image) const;
+    static std::vector<Pass> passes(std::uint32_t samplesPerPixel, bool collects);
 
     std::shared_ptr<const Scene> scene_;
     int threads_;
