@@ -33,9 +33,12 @@ class SurfaceLayersTest : public testing::Test {
     static void tick(Program& program, const QString& layer) {
         program.window->showDock("surfaces");
         QCheckBox* found = nullptr;
-        for (QCheckBox* box : program.window->views().surfaces->findChildren<QCheckBox*>("collect:" + layer))
-            if (box->isVisible()) found = box;
-        ASSERT_TRUE(found);
+        const auto isThere = [&] {
+            for (QCheckBox* box : program.window->views().surfaces->findChildren<QCheckBox*>("collect:" + layer))
+                if (box->isVisible()) found = box;
+            return found && found->visibleRegion().contains({8, found->height() / 2});
+        };
+        ASSERT_TRUE(waitFor(isThere)) << "docks come to the front when the event loop runs";
         QTest::mouseClick(found, Qt::LeftButton, {}, {8, found->height() / 2});
     }
     QTemporaryDir folder;
