@@ -31,14 +31,15 @@ serve() {
 # picture NAME LAYER [option of emca-explorer…]: the 3D view with the layer's colour bar
 picture() {
   LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" "$build/bin/emca-explorer" "$address" \
-    --only scene --size 1280x960 --theme dark --settings "$log.settings" --layers "$2" --show-layer "$2" --opacity 1 \
+    --only scene --size 960x720 --theme dark --settings "$log.settings" --layers "$2" --show-layer "$2" --opacity 1 \
     --screenshot "docs/pictures/$1.png" "${@:3}"
   rm -f "$log.settings"
   echo "docs/pictures/$1.png"
 }
 
+serve light-sampling-bug -D bug=false
+picture figure-2-mis-weight "MIS weight" --spp 256 --paths 0 --eye 0.9,0.9,-5.5 --target 3.2,3.6,3.0 --fov 50
 serve cornell-glass
-picture figure-2-mis-weight "MIS weight" --spp 256 --paths 0
 picture figure-2-invalid-directions "invalid directions" --spp 256 --paths 0 --layer-log
 
 below=(--spp 64 --paths 0 --layer-range 0,8e6 --eye 2.78,2.2,1.4 --target 2.78,5.48,3.0 --fov 50)
