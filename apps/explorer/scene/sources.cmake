@@ -23,7 +23,7 @@ set(EMCA_SCENE_SOURCES
   scene/stroke_mapper.cpp scene/stroke_mapper.h
   scene/surface_data.cpp scene/surface_data.h
   scene/surface_model.cpp scene/surface_model.h
-  scene/surface_panel.cpp scene/surface_panel.h
+  scene/surface_panel.cpp scene/surface_panel.h scene/surface_panel_list.cpp
   scene/surface_picker.cpp scene/surface_picker.h
   scene/surface_style.h
   scene/vertex_card.cpp scene/vertex_card.h
