@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${EMCA_BUILD_DIR:-build/release}
-cmake --build "$build" --target recorder_bench surface_bench transfer_bench explorer_click_bench scene_bench
+cmake --build "$build" --target recorder_bench layers_bench surface_bench transfer_bench explorer_click_bench scene_bench
 
 medians=(--benchmark_repetitions=9 --benchmark_report_aggregates_only=true)
 echo "== recording, per intersection"
@@ -17,3 +17,5 @@ echo "== click and selection, in the real window"
 LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" "$build/bench/explorer_click_bench"
 echo "== 3D view"
 LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" "$build/bench/scene_bench" 5
+echo "== what layers cost a render"
+"$build/bench/layers_bench" scenes/cornell-box/scene.xml 16 7
