@@ -13,28 +13,11 @@ namespace {
 using test::FakeRenderer;
 using test::Gate;
 
-class CommandLine : public testing::Test {
+class CommandLine : public ProgramTest {
   protected:
     void SetUp() override { served.start(); }
     std::string address() const { return served.address().text(); }
-    Finished run(std::vector<std::string> arguments) { return program.run(arguments); }
-    Json json(std::vector<std::string> arguments) {
-        const Finished f = run(std::move(arguments));
-        EXPECT_EQ(f.exitCode, Exit::ok) << f.err;
-        EXPECT_EQ(f.err, "");
-        return Json::parse(f.out, nullptr, false);
-    }
-    /// One sentence on standard error, nothing on standard output.
-    void expectError(const std::vector<std::string>& arguments, int exitCode, const std::string& word) {
-        const Finished f = run(arguments);
-        SCOPED_TRACE(testing::PrintToString(arguments));
-        EXPECT_EQ(f.exitCode, exitCode) << f.err;
-        EXPECT_EQ(f.out, "");
-        EXPECT_NE(f.err.find(word), std::string::npos) << f.err;
-        EXPECT_EQ(f.err.find('\n'), f.err.size() - 1) << f.err;
-    }
     test::Served served;
-    Program program;
 };
 
 TEST_F(CommandLine, Info) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kPoints = 16 * 12 * 20;  // of LayeredRenderer
 
-class Layers : public testing::Test {
+class Layers : public ProgramTest {
   protected:
     void SetUp() override { start({}); }
     void start(ServerOptions options) {
@@ -27,24 +27,8 @@ class Layers : public testing::Test {
         server = std::move(started).value();
     }
     std::string address() const { return server->address(); }
-    Finished run(std::vector<std::string> arguments) { return program.run(arguments); }
-    Json json(std::vector<std::string> arguments) {
-        const Finished f = run(std::move(arguments));
-        EXPECT_EQ(f.exitCode, Exit::ok) << f.err;
-        EXPECT_EQ(f.err, "");
-        return Json::parse(f.out, nullptr, false);
-    }
-    void expectError(const std::vector<std::string>& arguments, int exitCode, const std::string& word) {
-        const Finished f = run(arguments);
-        SCOPED_TRACE(testing::PrintToString(arguments));
-        EXPECT_EQ(f.exitCode, exitCode) << f.err;
-        EXPECT_EQ(f.out, "");
-        EXPECT_NE(f.err.find(word), std::string::npos) << f.err;
-        EXPECT_EQ(f.err.find('\n'), f.err.size() - 1) << f.err;
-    }
     test::LayeredRenderer renderer;
     std::unique_ptr<Server> server;
-    Program program;
 };
 
 TEST_F(Layers, InfoNamesThem) {

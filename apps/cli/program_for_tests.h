@@ -11,7 +11,11 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "command.h"
+#include "json.h"
 
 namespace emca::cli {
 
@@ -70,6 +74,29 @@ class Program {
         return {std::istreambuf_iterator<char>(in), {}};
     }
     std::filesystem::path folder_;
+};
+
+/// A test that runs the program and judges what it says.
+class ProgramTest : public testing::Test {
+  protected:
+    Finished run(std::vector<std::string> arguments) { return program.run(arguments); }
+    /// What it printed, where it had nothing to complain of.
+    Json json(std::vector<std::string> arguments) {
+        const Finished f = run(std::move(arguments));
+        EXPECT_EQ(f.exitCode, Exit::ok) << f.err;
+        EXPECT_EQ(f.err, "");
+        return Json::parse(f.out, nullptr, false);
+    }
+    /// One sentence on standard error, nothing on standard output.
+    void expectError(const std::vector<std::string>& arguments, int exitCode, const std::string& word) {
+        const Finished f = run(arguments);
+        SCOPED_TRACE(testing::PrintToString(arguments));
+        EXPECT_EQ(f.exitCode, exitCode) << f.err;
+        EXPECT_EQ(f.out, "");
+        EXPECT_NE(f.err.find(word), std::string::npos) << f.err;
+        EXPECT_EQ(f.err.find('\n'), f.err.size() - 1) << f.err;
+    }
+    Program program;
 };
 
 }  // namespace emca::cli

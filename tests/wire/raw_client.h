@@ -23,6 +23,11 @@ class RawClient {
         asio::write(socket_, asio::buffer(frame->data(), frame->size()), ignored_);
     }
     void greet(const std::string& token = {}) { send(0, protocol::Hello{"raw", 1, 1, {}, token}); }
+    /// Greets; true if the server says welcome.
+    bool isWelcome() {
+        greet();
+        return receives<protocol::Welcome>();
+    }
 
     /// The next message, or nothing at the end of the connection.
     std::optional<protocol::Message> receive() {

@@ -68,29 +68,39 @@ TEST(Scheduling, ARendererThatDoesOneThingAtATimeIsAskedOneThingAtATime) {
     EXPECT_EQ(served.renderer.mostAtOnce, 1);
 }
 
-TEST(Scheduling, ARequestThatWaitsBehindALongOneHearsThatItsServerLives) {
+/// A renderer that does one thing at a time, busy with an image until `go` opens.
+struct Busy {
     Served served;
-    served.renderer.description.concurrent = false;
-    Gate rendering, heard;
-    served.renderer.duringImage = [&](RequestMonitor&) {
-        rendering.open();
-        EXPECT_TRUE(heard.wait());
-    };
-    served.start();
-    const auto painter = served.connect();
-    auto render = std::async(std::launch::async, [&] { return painter->render(); });
-    ASSERT_TRUE(rendering.wait());
-    RawClient raw(served.server->port());
-    raw.greet();
-    ASSERT_TRUE(raw.receives<protocol::Welcome>());
+    Gate rendering, go;
+    std::unique_ptr<client::Connection> painter;
+    std::future<Result<client::Render>> render;
+
+    void start() {
+        served.renderer.description.concurrent = false;
+        served.renderer.duringImage = [this](RequestMonitor&) {
+            rendering.open();
+            EXPECT_TRUE(go.wait());
+        };
+        served.start();
+        painter = served.connect();
+        render = std::async(std::launch::async, [this] { return painter->render(); });
+        ASSERT_TRUE(rendering.wait());
+    }
+};
+
+TEST(Scheduling, ARequestThatWaitsBehindALongOneHearsThatItsServerLives) {
+    Busy busy;
+    ASSERT_NO_FATAL_FAILURE(busy.start());
+    RawClient raw(busy.served.server->port());
+    ASSERT_TRUE(raw.isWelcome());
     raw.send(1, protocol::CameraRequest{});
     const auto sign = raw.receive();
     ASSERT_TRUE(sign);
     const auto* progress = std::get_if<protocol::Progress>(&sign->body);
     ASSERT_NE(progress, nullptr);
     EXPECT_TRUE(progress->waiting);
-    heard.open();
-    EXPECT_TRUE(render.get().ok());
+    busy.go.open();
+    EXPECT_TRUE(busy.render.get().ok());
     EXPECT_TRUE(raw.receives<Camera>());
 }
 
@@ -107,8 +117,7 @@ TEST(Scheduling, ClientsTakeTurns) {
     served.start();
     RawClient greedy(served.server->port()), modest(served.server->port());
     for (RawClient* client : {&greedy, &modest}) {
-        client->greet();
-        ASSERT_TRUE(client->receives<protocol::Welcome>());
+        ASSERT_TRUE(client->isWelcome());
     }
     const auto ask = [](RawClient& client, std::uint64_t number, std::uint32_t x) {
         protocol::TraceRequest request;
@@ -152,22 +161,12 @@ TEST(Scheduling, CancelReachesARunningRender) {
 }
 
 TEST(Scheduling, CancelTakesBackWhatWaits) {
-    Served served;
-    served.renderer.description.concurrent = false;
-    Gate rendering, go;
+    Busy busy;
     int pixels = 0;
-    served.renderer.duringPixel = [&](Pixel, RequestMonitor&) { ++pixels; };
-    served.renderer.duringImage = [&](RequestMonitor&) {
-        rendering.open();
-        EXPECT_TRUE(go.wait());
-    };
-    served.start();
-    const auto painter = served.connect();
-    auto render = std::async(std::launch::async, [&] { return painter->render(); });
-    ASSERT_TRUE(rendering.wait());
-    RawClient raw(served.server->port());
-    raw.greet();
-    ASSERT_TRUE(raw.receives<protocol::Welcome>());
+    busy.served.renderer.duringPixel = [&](Pixel, RequestMonitor&) { ++pixels; };
+    ASSERT_NO_FATAL_FAILURE(busy.start());
+    RawClient raw(busy.served.server->port());
+    ASSERT_TRUE(raw.isWelcome());
     protocol::TraceRequest request;
     request.pixels = {{0, 0}};
     raw.send(5, request);
@@ -179,8 +178,8 @@ TEST(Scheduling, CancelTakesBackWhatWaits) {
     ASSERT_NE(failure, nullptr);
     EXPECT_EQ(answer->request, 5u);
     EXPECT_EQ(failure->error.code, ErrorCode::cancelled);
-    go.open();
-    EXPECT_TRUE(render.get().ok());
+    busy.go.open();
+    EXPECT_TRUE(busy.render.get().ok());
     EXPECT_EQ(pixels, 0);
 }
 

@@ -18,8 +18,7 @@ TEST(Trouble, WorkOfAVanishedClientIsCancelled) {  // aborted the published rend
     };
     served.start();
     RawClient raw(served.server->port());
-    raw.greet();
-    ASSERT_TRUE(raw.receives<protocol::Welcome>());
+    ASSERT_TRUE(raw.isWelcome());
     raw.send(1, protocol::RenderRequest{});
     ASSERT_TRUE(rendering.wait());
     raw.vanish();
@@ -35,8 +34,7 @@ TEST(Trouble, AClientMayVanishInTheMiddleOfAReply) {
     served.start();
     for (int i = 0; i < 3; ++i) {
         RawClient raw(served.server->port());
-        raw.greet();
-        ASSERT_TRUE(raw.receives<protocol::Welcome>());
+        ASSERT_TRUE(raw.isWelcome());
         raw.send(1, protocol::SceneRequest{});
         raw.send(2, protocol::TraceRequest{});
         ASSERT_TRUE(raw.receive());
@@ -52,8 +50,7 @@ TEST(Trouble, AClickDoesNotWaitForAScene) {
     served.renderer.scene = {mesh};
     served.start();
     RawClient raw(served.server->port());
-    raw.greet();
-    ASSERT_TRUE(raw.receives<protocol::Welcome>());
+    ASSERT_TRUE(raw.isWelcome());
     raw.send(1, protocol::SceneRequest{});
     ASSERT_TRUE(raw.receives<protocol::SceneChunk>());
     protocol::TraceRequest click;
@@ -93,8 +90,7 @@ TEST(Trouble, GarbageAfterTheGreetingEndsOnlyThisClient) {
     const auto bystander = served.connect();
     for (const std::string& garbage : {std::string("\xff\xff\xff\xff", 4), std::string("\x08\0\0\0EMCAEMCA", 12)}) {
         RawClient raw(served.server->port());
-        raw.greet();
-        ASSERT_TRUE(raw.receives<protocol::Welcome>());
+        ASSERT_TRUE(raw.isWelcome());
         raw.write(garbage);
         const auto answer = raw.receive();
         ASSERT_TRUE(answer);
@@ -114,8 +110,7 @@ TEST(Trouble, ARequestNumberInUseEndsTheClient) {
     };
     served.start();
     RawClient raw(served.server->port());
-    raw.greet();
-    ASSERT_TRUE(raw.receives<protocol::Welcome>());
+    ASSERT_TRUE(raw.isWelcome());
     protocol::TraceRequest request;
     request.pixels = {{0, 0}};
     raw.send(1, request);
