@@ -7,11 +7,11 @@
 
 #include "commands.h"
 #include "emca/analysis/format.h"
+#include "emca/core/replaced_file.h"
 #include "interrupt.h"
 #include "json.h"
 #include "layer_ply.h"
 #include "progress_bar.h"
-#include "replaced_file.h"
 #include "settings_options.h"
 #include "table.h"
 

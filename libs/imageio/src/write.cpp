@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <exception>
-#include <fstream>
-#include <random>
 
+#include "emca/core/replaced_file.h"
 #include "emca/imageio/imageio.h"
 #include "emca/imageio/stored_image.h"
 #include "exr.h"
@@ -18,6 +16,8 @@ namespace emca::imageio {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kNoun = "image";  // in sentences
 
 /// The image as three channels: colours as they are, one or two channels as grey.
 Image toRgb(const Image& image) {
@@ -72,57 +72,23 @@ Writer writerFor(const fs::path& file) {
     return nullptr;
 }
 
-/// A name beside the file that no other thread or program uses at the same time.
-fs::path temporaryBeside(const fs::path& file) {
-    static const unsigned program = std::random_device()();
-    static std::atomic<unsigned> counter{0};
-    return file.parent_path() / ("." + file.stem().string() + "." + std::to_string(program) + "-" +
-                                 std::to_string(counter++) + ".tmp" + file.extension().string());
-}
-
 Error unknownExtension(const fs::path& file) {
     return {ErrorCode::notSupported, "The image " + file.string() + " has the extension \"" +
                                          file.extension().string() + "\"; .exr, .pfm, .hdr and .png can be written."};
 }
 
-/// The file that is replaced: through a link to what it means; the link stays.
-fs::path targetOf(const fs::path& asked) {
-    std::error_code code;
-    return fs::is_symlink(asked, code) ? fs::weakly_canonical(asked, code) : asked;
-}
-
-Result<void> checkPlace(const fs::path& asked, const fs::path& target) {
-    std::error_code code;
-    const fs::file_status old = fs::status(target, code);
-    if (fs::exists(old) && !fs::is_regular_file(old))
-        return unwritable(asked, "there is something of that name that is not a file");
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, code)) return unwritable(asked, "there is no folder " + folder.string());
-    // Trying is the only answer that counts permissions, read-only file systems and full disks alike.
-    const fs::path probe = temporaryBeside(target);
-    const bool created = std::ofstream(probe, std::ios::binary).put('\n').flush().good();
-    fs::remove(probe, code);
-    return created ? Result<void>() : unwritable(asked, "the folder " + folder.string() + " does not allow it");
-}
-
 Result<void> writeAtomically(const fs::path& asked, const Image& image, Writer writer) {
-    const fs::path file = targetOf(asked);
-    if (Result<void> place = checkPlace(asked, file); !place) return place;
-    std::error_code code;
-    const fs::file_status old = fs::status(file, code);
-    const fs::path temporary = temporaryBeside(file);
-    Result<void> result = writer(temporary, image);
-    if (result) {
-        if (fs::exists(old)) fs::permissions(temporary, old.permissions(), code);
-        fs::rename(temporary, file, code);
-        if (code) result = unwritable(asked, code.message());
-    } else if (std::string message = result.error().message; message.find(temporary.string()) != std::string::npos) {
+    if (Result<void> place = ReplacedFile::check(asked, kNoun); !place) return place;
+    Result<ReplacedFile> file = ReplacedFile::create(asked, kNoun);
+    if (!file) return file.error();
+    if (const Result<void> result = writer(file->temporary(), image); !result) {
         // The person knows the file by the name that they gave.
-        message.replace(message.find(temporary.string()), temporary.string().size(), asked.string());
-        result = Error{result.error().code, message};
+        const std::string temporary = file->temporary().string();
+        std::string message = result.error().message;
+        if (const auto at = message.find(temporary); at != std::string::npos) message.replace(at, temporary.size(), asked.string());
+        return Error{result.error().code, message};
     }
-    if (!result) fs::remove(temporary, code);
-    return result;
+    return file->commit();
 }
 
 }  // namespace
@@ -133,7 +99,7 @@ Result<void> checkWritable(const fs::path& file) {
     if (writer == writeHdr || writer == writePng) {
         if (const auto& module = formatModule(); !module) return withoutModule(file, "written", module.error());
     }
-    return checkPlace(file, targetOf(file));
+    return ReplacedFile::check(file, kNoun);
 }
 
 Result<void> write(const fs::path& file, const Image& image) {
