@@ -1,99 +1,12 @@
 #include "kept_surfaces.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "emca/protocol/cut.h"
 #include "image_store.h"
 
 namespace emca {
-
-namespace {
-
-/// Cuts a field into chunks; arrays are looked at, never copied.
-class SurfaceCutter {
-  public:
-    SurfaceCutter(std::shared_ptr<const KeptSurface> surface, std::vector<std::size_t> layers, std::size_t bytes)
-        : surface_(std::move(surface)), layers_(std::move(layers)), chunkBytes_(bytes) {
-        arrays_.push_back(field().points);
-        for (const std::size_t layer : layers_) arrays_.push_back(field().layers[layer].values);
-    }
-
-    std::optional<protocol::Body> next() {
-        if (!announced_) {
-            announced_ = true;
-            return announcement();
-        }
-        if (finished_) return std::nullopt;
-        protocol::SurfaceChunk chunk;
-        std::size_t room = chunkBytes_;
-        while (mesh_ < field().meshes.size() && room > 0) chunk.meshes.push_back(nextMeshPart(room));
-        const bool meshesSent = mesh_ == field().meshes.size();
-        while (meshesSent && array_ < arrays_.size() && room > 0) chunk.arrays.push_back(nextArrayPart(room));
-        chunk.last = finished_ = meshesSent && array_ == arrays_.size();
-        return chunk;
-    }
-
-  private:
-    const SurfaceField& field() const { return surface_->field; }
-
-    protocol::SurfaceResult announcement() const {
-        protocol::SurfaceResult result;
-        result.renderId = surface_->renderId;
-        const auto all = collectedLayers(field());
-        for (const std::size_t layer : layers_) result.layers.push_back(all[layer]);
-        result.counts = field().counts;
-        result.meshCount = static_cast<std::uint32_t>(field().meshes.size());
-        result.faceCount = field().faceCount();
-        for (const SurfaceMesh& mesh : field().meshes) result.topologyBytes += mesh.subdivision.bits.size();
-        return result;
-    }
-
-    protocol::SurfaceMeshPart nextMeshPart(std::size_t& room) {
-        const SurfaceMesh& mesh = field().meshes[mesh_];
-        const auto& bits = mesh.subdivision.bits;
-        take(room, 64);
-        const std::size_t count = std::min(bits.size() - position_, room + 1);
-        protocol::SurfaceMeshPart part;
-        part.mesh = static_cast<std::uint32_t>(mesh_);
-        part.triangleCount = surface_->triangleCounts[mesh_];
-        part.faceCount = mesh.faceCount;
-        part.byteCount = static_cast<std::uint32_t>(bits.size());
-        part.firstByte = static_cast<std::uint32_t>(position_);
-        part.bits = SharedArray<std::uint8_t>(surface_, bits.data() + position_, count);
-        take(room, count);
-        advance(count, bits.size(), mesh_);
-        return part;
-    }
-
-    protocol::SurfaceArrayPart nextArrayPart(std::size_t& room) {
-        const SharedArray<float>& values = arrays_[array_];
-        take(room, 64);
-        const std::size_t count = std::min(values.size() - position_, room / sizeof(float) + 1);
-        protocol::SurfaceArrayPart part;
-        part.array = static_cast<std::uint32_t>(array_);
-        part.first = position_;
-        part.values = SharedArray<float>(surface_, values.data() + position_, count);
-        take(room, count * sizeof(float));
-        advance(count, values.size(), array_);
-        return part;
-    }
-
-    void advance(std::size_t count, std::size_t whole, std::size_t& list) {
-        position_ += count;
-        if (position_ < whole) return;
-        position_ = 0;
-        ++list;
-    }
-    static void take(std::size_t& room, std::size_t bytes) { room -= std::min(room, bytes); }
-
-    std::shared_ptr<const KeptSurface> surface_;
-    std::vector<std::size_t> layers_;
-    std::vector<SharedArray<float>> arrays_;
-    std::size_t chunkBytes_;
-    std::size_t mesh_ = 0, array_ = 0, position_ = 0;
-    bool announced_ = false, finished_ = false;
-};
-
-}  // namespace
 
 KeptSurfaces::KeptSurfaces(std::size_t most) : most_(std::max<std::size_t>(most, 1)) {}
 
@@ -150,7 +63,12 @@ Result<std::vector<std::size_t>> chooseLayers(const SurfaceField& field, const s
 }
 
 ClientPort::Source surfaceChunks(std::shared_ptr<const KeptSurface> surface, std::vector<std::size_t> layers, std::size_t chunkBytes) {
-    return [cutter = SurfaceCutter(std::move(surface), std::move(layers), chunkBytes)]() mutable { return cutter.next(); };
+    const std::shared_ptr<const SurfaceField> field(surface, &surface->field);
+    protocol::SurfaceCutter whole(field, surface->triangleCounts, std::move(layers), chunkBytes);
+    return [cutter = std::move(whole), id = surface->renderId, announced = false]() mutable -> std::optional<protocol::Body> {
+        if (std::exchange(announced, true)) return cutter.next();
+        return cutter.announcement(id);
+    };
 }
 
 std::string quotedList(const std::vector<LayerDescription>& layers) {
