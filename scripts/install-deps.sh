@@ -7,7 +7,7 @@ packages=(
   # tools
   build-essential cmake ninja-build pkg-config git
   # libraries
-  flatbuffers-compiler libflatbuffers-dev libasio-dev libzstd-dev zlib1g-dev
+  flatbuffers-compiler libflatbuffers-dev libasio-dev libzstd-dev libre2-dev zlib1g-dev
   libembree-dev libtbb-dev libpugixml-dev libopenimageio-dev libopenexr-dev libboost-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev
   # explorer

@@ -1,0 +1,227 @@
+#include "emca/query/query.h"
+
+#include <re2/re2.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "check.h"
+#include "evaluator.h"
+#include "prepare.h"
+
+namespace emca::query {
+
+namespace detail {
+
+bool prepare(Node& node, QueryError& error) {
+    if (node.kind == Kind::lightPath) {
+        // "lpe(" and blanks stand before the quote; the text's own place is good enough for its first character.
+        node.lightPath = LightPathExpression::parse(node.text, node.where.begin + 4, error);
+        if (!node.lightPath) return false;
+    }
+    if (node.kind == Kind::operation && node.op == Op::matches && node.children[1].kind == Kind::text) {
+        re2::RE2::Options options(re2::RE2::Quiet);
+        options.set_max_mem(1 << 20);
+        const re2::RE2 pattern(node.children[1].text, options);
+        if (!pattern.ok()) {
+            error = {"The regular expression is not valid: " + pattern.error(), node.children[1].where};
+            return false;
+        }
+    }
+    return std::all_of(node.children.begin(), node.children.end(), [&](Node& child) { return prepare(child, error); });
+}
+
+bool makeTree(std::string_view text, Node& root, QueryError& error) {
+    if (!parseExpression(text, root, error) || !prepare(root, error)) return false;
+    Node copy = root;
+    return check(copy, anyTypes(), error);
+}
+
+namespace {
+
+std::size_t depthOf(const Node& node) {
+    std::size_t deepest = 0;
+    for (const Node& child : node.children) deepest = std::max(deepest, depthOf(child));
+    return deepest + 1;
+}
+
+}  // namespace
+
+std::size_t temporaryBytes(const Node& root, const Chunk& chunk) {
+    std::size_t elements = 0;
+    for (const Domain domain : {Domain::path, Domain::vertex, Domain::contribution, Domain::nextEvent}) elements = std::max(elements, chunk.size(domain));
+    // At each level of the tree at most the operands of one operation exist: three numbers and a flag per element.
+    return elements * 25 * std::min<std::size_t>(depthOf(root), 16);
+}
+
+}  // namespace detail
+
+namespace {
+
+using namespace detail;
+
+std::string excerpt(std::string_view query, SourceRange where) {
+    constexpr std::size_t kLongest = 40;
+    if (where.begin >= query.size() || where.end <= where.begin) return {};
+    std::string piece(query.substr(where.begin, std::min<std::size_t>(where.end - where.begin, kLongest)));
+    if (where.end - where.begin > kLongest) piece += "…";
+    return " (" + piece + ")";
+}
+
+/// A tree checked against the types of a set, and chunks over which it goes.
+class Evaluation {
+  public:
+    Evaluation(const Node& root, const PathSet& paths, const EvaluationLimits& limits, bool wholePixels)
+        : root_(root), paths_(paths), limits_(limits), wholePixels_(wholePixels) {}
+
+    /// Calls `use(values, range)` with one value per path. Returns false with `error` set if types do not fit.
+    template <typename Use>
+    Result<void> run(std::string_view text, QueryError* where, bool condition, Use use, std::vector<std::string>& missing) {
+        QueryError error;
+        bool fits = check(root_, typesOf(paths_), error);
+        if (fits && condition && root_.type != Type::boolean && root_.type != Type::missing) {
+            error = {std::string("The query gives a ") + name(root_.type) + ": expected a condition, such as luminance > 10", root_.where};
+            fits = false;
+        }
+        if (!fits) {
+            if (where) *where = error;
+            return toError(text, error);
+        }
+        Evaluator evaluator(paths_, root_);
+        missing = evaluator.missing();
+        for (Index first = 0; first < paths_.pathCount();) {
+            if (limits_.cancelled && limits_.cancelled()) return Error{ErrorCode::cancelled, "The query was cancelled."};
+            const IndexRange range = nextChunk(paths_, first, wholePixels_);
+            Chunk chunk(paths_, range);
+            if (temporaryBytes(root_, chunk) > limits_.temporaryBytes) return tooLarge(range);
+            use(evaluator, evaluator.evaluateOn(root_, Domain::path, chunk), range);
+            first = range.last;
+        }
+        return {};
+    }
+
+    const Node& root() const { return root_; }
+
+  private:
+    Error tooLarge(IndexRange range) const {
+        const Index vertices = paths_.vertices(range.last - 1).last - paths_.vertices(range.first).first;
+        return {ErrorCode::tooLarge, std::string("The query reads ") + (wholePixels_ ? "a whole pixel" : "a path") + " with " +
+                                         std::to_string(vertices) + " vertices at once, which needs more than the " +
+                                         std::to_string(limits_.temporaryBytes >> 20) + " MiB allowed: trace fewer samples, or use a simpler query."};
+    }
+
+    Node root_;
+    const PathSet& paths_;
+    const EvaluationLimits& limits_;
+    bool wholePixels_;
+};
+
+}  // namespace
+
+const char* name(ExpressionType type) {
+    switch (type) {
+        case ExpressionType::boolean: return "condition";
+        case ExpressionType::number: return "number";
+        case ExpressionType::color: return "colour";
+        case ExpressionType::vector: return "vector";
+        case ExpressionType::text: return "text";
+        case ExpressionType::spectrum: return "spectrum";
+        case ExpressionType::missing: break;
+    }
+    return "value that was not recorded";
+}
+
+Error toError(std::string_view query, const QueryError& error) {
+    return {ErrorCode::parseFailed, "At character " + std::to_string(error.where.begin + 1) + excerpt(query, error.where) + ": " + error.message + "."};
+}
+
+std::string pointAt(std::string_view query, SourceRange where) {
+    const auto isStart = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };  // of a UTF-8 character
+    std::string line(query), mark;
+    std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+    for (std::size_t i = 0; i <= line.size(); ++i) {
+        const bool inside = i >= where.begin && (i < where.end || i == where.begin);
+        if (i < line.size() && !isStart(line[i])) continue;
+        if (i == line.size() && !inside) break;
+        mark += inside ? '^' : ' ';
+    }
+    mark.erase(mark.find_last_not_of(' ') + 1);
+    return line + "\n" + mark;
+}
+
+Result<Query> Query::parse(std::string_view text, QueryError* where) {
+    Query query;
+    Node root;
+    QueryError error;
+    if (!makeTree(text, root, error)) {
+        if (where) *where = error;
+        return toError(text, error);
+    }
+    query.text_ = std::string(text);
+    query.columns_ = columnsOf(root);
+    if (query.columns_.empty()) query.columns_ = {"estimate"};  // an empty list would mean all
+    Node checked = root;
+    (void)check(checked, anyTypes(), error);
+    query.wholePixels_ = detail::readsWholePixels(checked);
+    query.root_ = std::make_shared<const Node>(std::move(root));
+    return query;
+}
+
+Result<Matches> Query::select(const PathSet& paths, const EvaluationLimits& limits, QueryError* where) const {
+    Matches matches;
+    Evaluation evaluation(*root_, paths, limits, wholePixels_);
+    const auto use = [&](Evaluator&, const Values& values, IndexRange range) {
+        for (Index p = range.first; p < range.last; ++p) {
+            const std::uint8_t truth = values.type == Type::missing ? std::uint8_t{kUnknown} : values.truth[values.constant ? 0 : p - range.first];
+            if (truth == kTrue) matches.paths.push_back(p);
+            matches.unknown += truth == kUnknown;
+        }
+    };
+    if (auto done = evaluation.run(text_, where, true, use, matches.missing); !done) return done.error();
+    return matches;
+}
+
+Result<PathValues> Query::evaluate(const PathSet& paths, const EvaluationLimits& limits, QueryError* where) const {
+    PathValues out;
+    Evaluation evaluation(*root_, paths, limits, wholePixels_);
+    const auto use = [&](Evaluator& evaluator, const Values& values, IndexRange range) {
+        for (Index p = range.first; p < range.last; ++p) {
+            const std::size_t i = values.constant ? 0 : p - range.first;
+            const bool known = values.isKnown(i);
+            out.known.push_back(known);
+            if (values.type == Type::boolean) out.numbers.push_back(known && values.truth[i] == kTrue ? 1 : 0);
+            else if (values.type == Type::text) out.texts.emplace_back(known ? evaluator.texts().text(values.texts[i]) : std::string_view());
+            else if (values.type == Type::missing) out.numbers.push_back(0);
+            else if (values.type != Type::spectrum)
+                for (std::size_t c = 0; c < static_cast<std::size_t>(values.components); ++c)
+                    out.numbers.push_back(known ? values.numbers[c][i] : std::numeric_limits<double>::quiet_NaN());
+        }
+    };
+    if (auto done = evaluation.run(text_, where, false, use, out.missing); !done) return done.error();
+    out.type = evaluation.root().type;
+    out.components = out.type == Type::text ? 0 : out.type == Type::missing ? 1 : evaluation.root().components;
+    if (out.type == Type::spectrum) return Error{ErrorCode::parseFailed, "The expression gives a spectrum: take an entry of it, such as [0]."};
+    return out;
+}
+
+std::string quotedText(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+std::string quotedName(std::string_view text) {
+    static const re2::RE2 plain("[A-Za-z_][A-Za-z0-9_]*");
+    if (re2::RE2::FullMatch(re2::StringPiece(text.data(), text.size()), plain)) return std::string(text);
+    std::string out = "`";
+    for (const char c : text) {
+        if (c == '`' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "`";
+}
+
+}  // namespace emca::query
