@@ -37,6 +37,7 @@ class Checker {
     Checker(const UserTypes& types, QueryError& error) : types_(types), error_(error) {}
 
     bool check(Node& node, Domain current) {
+        if (aggregates_ && !belongsToGroup(node.kind)) return aggregate(node);
         switch (node.kind) {
             case Kind::number: return set(node, Type::number, 1, Domain::constant);
             case Kind::boolean: return set(node, Type::boolean, 1, Domain::constant);
@@ -60,10 +61,34 @@ class Checker {
         return operation(node);
     }
 
+    /// From now on outermost reductions are aggregates over elements of `rows`.
+    void aggregateOver(Domain rows) {
+        aggregates_ = true;
+        rows_ = rows;
+    }
+
   private:
     bool fail(const Node& node, std::string message) {
         error_ = {std::move(message), node.where};
         return false;
+    }
+
+    /// True of what has one value for a whole group, if its children have.
+    static bool belongsToGroup(Kind kind) {
+        return kind == Kind::number || kind == Kind::boolean || kind == Kind::text || kind == Kind::operation;
+    }
+
+    bool aggregate(Node& node) {
+        if (node.kind != Kind::reduction) {
+            return fail(node, "Rows of one group may differ in this: aggregate it, as in mean(), or group by it");
+        }
+        aggregates_ = false;
+        const bool fits = std::all_of(node.children.begin(), node.children.end(), [&](Node& child) { return check(child, rows_); });
+        aggregates_ = true;
+        node.argument = rows_;
+        node.domain = Domain::constant;
+        if (fits && node.children.empty()) return set(node, Type::number, 1, Domain::constant);  // count()
+        return fits && reductionType(node);
     }
 
     bool set(Node& node, Type type, int components, Domain domain) {
@@ -307,6 +332,8 @@ class Checker {
 
     const UserTypes& types_;
     QueryError& error_;
+    bool aggregates_ = false;
+    Domain rows_ = Domain::path;
 };
 
 void collectColumns(const Node& node, std::set<std::string>& columns) {
@@ -324,6 +351,12 @@ bool check(Node& root, const UserTypes& types, QueryError& error) { return check
 
 bool checkWithin(Node& root, Domain domain, const UserTypes& types, QueryError& error) {
     return Checker(types, error).check(root, domain);
+}
+
+bool checkAggregate(Node& root, Domain rows, const UserTypes& types, QueryError& error) {
+    Checker checker(types, error);
+    checker.aggregateOver(rows);
+    return checker.check(root, rows);
 }
 
 bool directDomain(const Node& node, Domain& domain, QueryError& error) {

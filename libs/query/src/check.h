@@ -30,6 +30,10 @@ bool check(Node& root, const UserTypes& types, QueryError& error);
 /// encloses it.
 bool checkWithin(Node& root, Domain domain, const UserTypes& types, QueryError& error);
 
+/// Checks a column of a table whose rows are elements of `rows`: its outermost reductions become aggregates over rows,
+/// and what stands outside of them must be the same for a whole group.
+bool checkAggregate(Node& root, Domain rows, const UserTypes& types, QueryError& error);
+
 /// The narrowest domain that a node names outside of reductions. False: it mixes contributions and shadow tests.
 bool directDomain(const Node& node, Domain& domain, QueryError& error);
 
