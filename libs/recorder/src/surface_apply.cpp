@@ -25,14 +25,6 @@ constexpr std::uint32_t kLanes = 16;  // more than the machine's outstanding mis
 
 inline void prefetchForWriting(const void* address) { __builtin_prefetch(address, 1, 3); }
 
-inline const SurfacePlace& placeOf(const std::uint32_t* record) {
-    return *reinterpret_cast<const SurfacePlace*>(record);
-}
-
-inline void bump(std::atomic<std::uint64_t>& counter, std::uint64_t by) {
-    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
-}
-
 }  // namespace
 
 void SurfaceStore::submit(SurfaceBlock* block, std::uint32_t index) {
@@ -214,58 +206,8 @@ void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
         first += 32;
         drop = 0;
     }
-    if (node->points >= options_.samplesPerDivision && !(node->parent & kFinal)) [[unlikely]]
+    if (node->points >= pointsToDivide_ && !(node->parent & kFinal)) [[unlikely]]
         divide(shard, node, record);
-}
-
-/// Divides the triangle of a node, which contains the point of the record, unless that is not to be.
-void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record) {
-    node->parent |= kFinal;
-    const SurfacePlace& place = placeOf(record);
-    std::uint32_t u = 0, v = 0, level = 0;
-    coordinates(record, u, v);
-    SurfaceRef* slot = slotOf(place.face);
-    while (slot->kind() == SurfaceRef::inner) {
-        slot = slot->children() + descend(u, v);
-        ++level;
-    }
-    std::uint32_t which = 0;
-    if (slot->kind() == SurfaceRef::leaves) {
-        which = descend(u, v);
-        ++level;
-    }
-    assert(slot->end(which, nodeBytes_) == node);
-    if (mayDivide(place, level) && !divide(shard, *slot, which)) bump(shard.refused, 1);
-}
-
-/// False beyond the budget.
-bool SurfaceStore::divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which) {
-    SurfaceNode* node = ref.end(which, nodeBytes_);
-    SurfaceRef* four = nullptr;
-    if (ref.kind() == SurfaceRef::leaves) {  // its three siblings stay as they are
-        four = reinterpret_cast<SurfaceRef*>(allocate(shard, 4 * sizeof(SurfaceRef)));
-        if (four == nullptr) return false;
-        for (std::uint32_t i = 0; i < 4; ++i) four[i] = {ref.end(i, nodeBytes_), SurfaceRef::leaf};
-    }
-    auto* nodes = reinterpret_cast<SurfaceNode*>(allocate(shard, 4 * nodeBytes_));
-    if (nodes == nullptr) return false;
-    const SurfaceRef divided(nodes, SurfaceRef::leaves);
-    for (std::uint32_t i = 0; i < 4; ++i)
-        divided.end(i, nodeBytes_)->parent = reinterpret_cast<std::uintptr_t>(node);
-    if (four == nullptr) {
-        ref = divided;
-    } else {
-        four[which] = divided;
-        ref = SurfaceRef(four, SurfaceRef::inner);
-    }
-    return true;
-}
-
-bool SurfaceStore::mayDivide(const SurfacePlace& place, std::uint32_t level) const {
-    if (level >= options_.maximumLevel) return false;
-    const auto face = static_cast<std::uint32_t>(place.face - faceStarts_[place.mesh]);
-    const double childArea = std::ldexp(area(place.mesh, face), -2 * static_cast<int>(level + 1));
-    return childArea > 0 && childArea >= minimumArea_;
 }
 
 SurfaceRef* SurfaceStore::slotOf(std::uint32_t face) const {

@@ -175,6 +175,36 @@ TEST(SurfaceFinish, NoStepsBetweenLevels) {
     }
 }
 
+/// As an image is rendered tile by tile: what a face had before it was divided must not have come from one corner of it.
+TEST(SurfaceFinish, APassMayVisitTheSurfaceInAnyOrder) {
+    const std::vector<Mesh> meshes = {grid(1)};
+    const int samples = 320000, parts = 32;
+    double deviation[2];
+    for (const bool told : {false, true}) {
+        SurfaceRecorder recorder(meshes, {.minimumEdge = 0});
+        const SurfaceLayer density = *recorder.addLayer({"density", LayerKind::density, "", ""});
+        UniformPoints points(meshes[0], 31);
+        for (int first = 0, last = 1; first < parts; first = std::exchange(last, 4 * last < parts ? 2 * last : parts)) {
+            std::vector<UniformPoint> pass;
+            for (int i = 0; i < (last - first) * (samples / parts); ++i) pass.push_back(points.next());
+            std::sort(pass.begin(), pass.end(), [&](const UniformPoint& a, const UniformPoint& b) {
+                return position(meshes[0], a.face, a.uv).x < position(meshes[0], b.face, b.uv).x;
+            });
+            for (const UniformPoint& p : pass) density.add(recorder.cursor().locate(0, p.face, p.uv));
+            if (told && last < parts) recorder.passDone(double(last) / parts);
+        }
+        const SurfaceField field = recorder.finish();
+        EXPECT_EQ(field.layers[0].samples, std::uint64_t(samples));
+        EXPECT_NEAR(integral(field, field.layers[0], meshes), samples, 1e-4 * samples);
+        EXPECT_GT(field.faceCount(), 1000u);
+        double squares = 0;
+        for (const float v : field.layers[0].values) squares += std::pow(double(v) / samples - 1, 2);
+        deviation[told] = std::sqrt(squares / double(field.faceCount()));
+    }
+    EXPECT_LT(deviation[1], 0.13);  // a face holds 80 to 340 samples
+    EXPECT_GT(deviation[0], 2 * deviation[1]);
+}
+
 TEST(SurfaceFinish, AnEdgeInTheDensityStaysAnEdge) {
     // Samples only where x < 0.4: nothing of them may show far on the other side.
     const std::vector<Mesh> meshes = {grid(1)};

@@ -256,6 +256,10 @@ SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f
                   std::bit_cast<std::uint32_t>(p.z), detail::kIsPosition);
 }
 
+void SurfaceRecorder::passDone(double part) {
+    if (impl_->store->isSetUp()) impl_->store->divideAll(part);
+}
+
 SurfaceField SurfaceRecorder::finish() {
     detail::SurfaceStore& store = *impl_->store;
     if (store.isSetUp()) store.flush();

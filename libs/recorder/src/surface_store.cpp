@@ -40,6 +40,7 @@ std::byte* newSlab(std::size_t bytes) {
 SurfaceStore::SurfaceStore(std::vector<SurfaceMeshView> meshes, SurfaceOptions options)
     : meshes_(std::move(meshes)), options_(options) {
     options_.samplesPerDivision = std::max(1u, options_.samplesPerDivision);
+    pointsToDivide_ = options_.samplesPerDivision;
     options_.maximumLevel = std::min(options_.maximumLevel, kMaxSurfaceLevel);
 }
 

@@ -15,6 +15,15 @@ namespace emca::detail {
 
 struct SurfaceCursorImpl;
 
+inline const SurfacePlace& placeOf(const std::uint32_t* record) {
+    return *reinterpret_cast<const SurfacePlace*>(record);
+}
+
+/// For counters that many read and one thread writes.
+inline void bump(std::atomic<std::uint64_t>& counter, std::uint64_t by) {
+    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+}
+
 /// A triangle of the subdivision with what was added to it while it was not divided. The layers' cells follow, so that a
 /// sample touches one or a few neighbouring cache lines. Only the owner of its shard reads or writes it.
 struct SurfaceNode {
@@ -115,6 +124,8 @@ class SurfaceStore {
     bool help();
     /// Applies everything that threads hold back. No thread may be recording.
     void flush();
+    /// See SurfaceRecorder::passDone.
+    void divideAll(double part);
 
     std::uint32_t shardOf(std::uint32_t face) const {
         const std::uint32_t run = static_cast<std::uint32_t>(std::uint64_t(face) >> (pageBits_ + runBits_));
@@ -172,6 +183,7 @@ class SurfaceStore {
     void addRecord(SurfaceShard& shard, Lane& lane);
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
+    void divideBelow(SurfaceRef& ref, const SurfacePlace& place, std::uint32_t level, double inherited, double growth);
     bool mayDivide(const SurfacePlace& place, std::uint32_t level) const;
     SurfaceRef* slotOf(std::uint32_t face) const;
     SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
@@ -185,6 +197,7 @@ class SurfaceStore {
     std::vector<std::uint64_t> faceStarts_;
     std::uint64_t faceCount_ = 0;
     double minimumArea_ = 0;
+    std::uint64_t pointsToDivide_ = 0;  ///< of a node
 
     std::vector<LayerDescription> descriptions_;
     std::vector<SurfaceLayerLayout> layouts_;

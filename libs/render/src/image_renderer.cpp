@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -105,8 +104,7 @@ bool ImageRenderer::renderTile(PixelRect tile, Pass pass, const RenderOptions& o
                                const RenderCallbacks& callbacks, SurfaceTally* surface, PixelSums* kept,
                                RenderedImage& image) const {
     std::vector<Color> colors;
-    const bool shows = callbacks.tileDone && pass.shows;
-    if (shows) colors.reserve(tile.count());
+    if (callbacks.tileDone) colors.reserve(tile.count());
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
             if (callbacks.cancelled && callbacks.cancelled()) return false;
@@ -117,22 +115,23 @@ bool ImageRenderer::renderTile(PixelRect tile, Pass pass, const RenderOptions& o
             image.color.setColor({x, y}, mean);
             image.variance.setColor({x, y}, sums.variance(pass.last));
             *image.samples.at({x, y}) = static_cast<float>(pass.last);
-            if (shows) colors.push_back(mean);
+            if (callbacks.tileDone) colors.push_back(mean);
         }
     }
-    if (shows) callbacks.tileDone(tile, colors);
+    if (callbacks.tileDone) callbacks.tileDone(tile, colors);
     return true;
 }
 
 /// A tile's samples all at once are best for the caches. But a face on which samples are collected hands those that it
 /// had before it was divided down by the density of those after: they must not come from another part of it. So then
-/// every pass takes one sample of all pixels.
+/// faces divide between passes over the image, which get longer: each doubles the samples, as long as three quarters of
+/// all are still to come.
 std::vector<ImageRenderer::Pass> ImageRenderer::passes(std::uint32_t samplesPerPixel, bool collects) {
-    if (!collects) return {{0, samplesPerPixel, true}};
-    std::vector<Pass> all;
-    for (std::uint32_t first = 0; first < samplesPerPixel; ++first) {
-        const std::uint32_t last = first + 1;
-        all.push_back({first, last, std::has_single_bit(last) || last == samplesPerPixel});
+    if (!collects) return {{0, samplesPerPixel}};
+    std::vector<Pass> all{{0, 1}};
+    while (all.back().last < samplesPerPixel) {
+        const std::uint32_t first = all.back().last;
+        all.push_back({first, 4 * std::uint64_t(first) < samplesPerPixel ? 2 * first : samplesPerPixel});
     }
     return all;
 }
@@ -170,6 +169,8 @@ Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, c
             tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tiles, 1), renderTiles, tbb::simple_partitioner());
         });
         if (stop) return cancelledError();
+        if (layers && pass.last < options.samplesPerPixel)
+            surface->passDone(double(pass.last) / options.samplesPerPixel);
     }
     return image;
 }

@@ -153,6 +153,13 @@ class SurfaceRecorder {
     /// This thread's cursor: fetch it once per path or tile. Valid until the thread or the recorder ends.
     SurfaceCursor& cursor();
 
+    /// For renderers that go over the image more than once: between two passes over all of it, with the part of all samples
+    /// that has been taken, in (0, 1). Faces divide by the number of points that they will have at the end; and from the
+    /// first call on, in these calls only. So what a face had before it was divided, and what decides how that is handed
+    /// down, both come from whole passes, in whatever order a pass visits the image. No thread may be adding meanwhile, and
+    /// points have to be located anew.
+    void passDone(double part);
+
     /// All that was added so far, after post-processing. No thread may be adding meanwhile; recording may go on
     /// afterwards, with points located anew, and finish() be called again.
     ///

@@ -59,7 +59,6 @@ class ImageRenderer {
     /// Part of an image's samples: the same for all pixels.
     struct Pass {
         std::uint32_t first = 0, last = 0;  ///< sample indices
-        bool shows = true;                  ///< tiles are told of after it
     };
     /// \return false if cancelled
     bool addSamples(Pixel pixel, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,

@@ -1,0 +1,106 @@
+// When a triangle divides into four.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+#include "emca/core/surface_tree.h"
+#include "surface_store.h"
+
+namespace emca::detail {
+
+/// Divides the triangle of a node, which contains the point of the record, unless that is not to be.
+void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record) {
+    node->parent |= kFinal;
+    const SurfacePlace& place = placeOf(record);
+    std::uint32_t u = 0, v = 0, level = 0;
+    coordinates(record, u, v);
+    SurfaceRef* slot = slotOf(place.face);
+    while (slot->kind() == SurfaceRef::inner) {
+        slot = slot->children() + descend(u, v);
+        ++level;
+    }
+    std::uint32_t which = 0;
+    if (slot->kind() == SurfaceRef::leaves) {
+        which = descend(u, v);
+        ++level;
+    }
+    assert(slot->end(which, nodeBytes_) == node);
+    if (mayDivide(place, level) && !divide(shard, *slot, which)) bump(shard.refused, 1);
+}
+
+/// False beyond the budget.
+bool SurfaceStore::divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which) {
+    SurfaceNode* node = ref.end(which, nodeBytes_);
+    SurfaceRef* four = nullptr;
+    if (ref.kind() == SurfaceRef::leaves) {  // its three siblings stay as they are
+        four = reinterpret_cast<SurfaceRef*>(allocate(shard, 4 * sizeof(SurfaceRef)));
+        if (four == nullptr) return false;
+        for (std::uint32_t i = 0; i < 4; ++i) four[i] = {ref.end(i, nodeBytes_), SurfaceRef::leaf};
+    }
+    auto* nodes = reinterpret_cast<SurfaceNode*>(allocate(shard, 4 * nodeBytes_));
+    if (nodes == nullptr) return false;
+    const SurfaceRef divided(nodes, SurfaceRef::leaves);
+    for (std::uint32_t i = 0; i < 4; ++i)
+        divided.end(i, nodeBytes_)->parent = reinterpret_cast<std::uintptr_t>(node);
+    if (four == nullptr) {
+        ref = divided;
+    } else {
+        four[which] = divided;
+        ref = SurfaceRef(four, SurfaceRef::inner);
+    }
+    return true;
+}
+
+bool SurfaceStore::mayDivide(const SurfacePlace& place, std::uint32_t level) const {
+    if (level >= options_.maximumLevel) return false;
+    const auto face = static_cast<std::uint32_t>(place.face - faceStarts_[place.mesh]);
+    const double childArea = std::ldexp(area(place.mesh, face), -2 * static_cast<int>(level + 1));
+    return childArea > 0 && childArea >= minimumArea_;
+}
+
+void SurfaceStore::divideAll(double part) {
+    flush();
+    pointsToDivide_ = ~std::uint64_t(0);
+    const double growth = part > 0 ? 1 / part : 1;
+    for (std::uint64_t page = 0; storesFaces_ && page << pageBits_ < faceCount_; ++page) {
+        if (pages_[page] == nullptr) continue;
+        const std::uint64_t end = std::min((page + 1) << pageBits_, faceCount_);
+        for (std::uint64_t face = page << pageBits_; face < end; ++face) {
+            const auto f = static_cast<std::uint32_t>(face);
+            SurfaceRef* slot = slotOf(f);
+            if (!*slot) continue;
+            SurfacePlace place;
+            place.face = f;
+            place.mesh = meshOf(f);
+            divideBelow(*slot, place, 0, 0, growth);
+        }
+    }
+}
+
+/// \param inherited  points that came before the triangle was divided off, were they spread evenly
+void SurfaceStore::divideBelow(SurfaceRef& ref, const SurfacePlace& place, std::uint32_t level, double inherited,
+                               double growth) {
+    SurfaceShard& shard = shards_[shardOf(place.face)];
+    const auto consider = [&](SurfaceRef& at, std::uint32_t which, std::uint32_t itsLevel, double above) {
+        SurfaceNode* node = at.end(which, nodeBytes_);
+        const double all = double(node->points) + above;
+        // As many as a face has that divides at once: its own and a third of that, which it got from those above. Where
+        // few are its own, what is above went to its siblings.
+        if (3 * all * growth < 4 * double(options_.samplesPerDivision) || 8 * double(node->points) < all || node->parent & kFinal)
+            return;
+        node->parent |= kFinal;
+        if (mayDivide(place, itsLevel) && !divide(shard, at, which)) bump(shard.refused, 1);
+    };
+    if (ref.kind() == SurfaceRef::leaf) return consider(ref, 0, level, inherited);
+    const double each = (inherited + double(ref.own()->points)) / 4;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        if (ref.kind() == SurfaceRef::leaves) {
+            consider(ref, k, level + 1, each);  // which may make it an inner one
+        } else {
+            divideBelow(ref.children()[k], place, level + 1, each, growth);
+        }
+    }
+}
+
+}  // namespace emca::detail
