@@ -53,6 +53,7 @@ RendererInfo RendererAdapter::info() const {
     info.sampler = render::name(options_.sampler);
     info.seed = options_.seed;
     info.concurrent = true;
+    info.threads = static_cast<unsigned>(renderer_.threads());
     info.deterministic = true;
     return info;
 }

@@ -281,9 +281,6 @@ TEST(Requests, WhatNoRequestMayHaveIsAnsweredClearly) {
     render.samplesPerPixel = 1'000'000'000;
     EXPECT_CODE(connection->render(render), tooLarge);
     options = {};
-    options.query = "depth > 3";
-    EXPECT_CODE(connection->tracePixel({1, 1}, options), notSupported);
-    options = {};
     options.against = client::VerdictAgainst::givenColors;
     EXPECT_CODE(connection->tracePixel({1, 1}, options), invalidArgument);
     EXPECT_CODE(connection->askTool("nobody", {}), notSupported);

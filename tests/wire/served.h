@@ -36,6 +36,11 @@ struct Served {
 }  // namespace emca::test
 
 #define ASSERT_OK(result) ASSERT_TRUE((result).ok()) << (result).error().message
+#define EXPECT_OK(result)                                            \
+    do {                                                              \
+        const auto& found = (result);                                 \
+        EXPECT_TRUE(found.ok()) << (found.ok() ? "" : found.error().message); \
+    } while (false)
 #define EXPECT_CODE(result, wanted)                                                     \
     do {                                                                                \
         const auto& found = (result);                                                   \

@@ -129,17 +129,12 @@ std::vector<Source> orderedSources(std::span<const PathSet> sets) {
     return kept;
 }
 
-}  // namespace
-
-PathSet PathSet::merged(std::span<const PathSet> sets) {
-    if (sets.empty()) return {};
-    if (sets.size() == 1) return sets[0];
-    const std::vector<Source> sources = orderedSources(sets);
-
+/// Copies the paths named, in their order, into one set of columns.
+PathColumns gathered(std::span<const PathSet> sets, const std::vector<Source>& sources) {
     StringTable strings;
     StringMaps maps(sets.size());
     for (Index s = 0; s < sets.size(); ++s)
-        for (const std::string& text : sets[s].columns_.strings) maps[s].push_back(strings.add(text));
+        for (const std::string& text : sets[s].columns().strings) maps[s].push_back(strings.add(text));
 
     std::map<std::tuple<Scope, std::string, ValueType>, ColumnMerger> mergers;
     for (const PathSet& set : sets)
@@ -158,7 +153,7 @@ PathSet PathSet::merged(std::span<const PathSet> sets) {
     std::vector<std::uint32_t> labels;
 
     for (const auto [s, p] : sources) {
-        const PathColumns& c = sets[s].columns_;
+        const PathColumns& c = sets[s].columns();
         const IndexRange path{p, p + 1}, vertices = sets[s].vertices(p);
         const auto toPath = static_cast<Index>(pixels.size()), toVertex = static_cast<Index>(depths.size());
         appendSlice(pixels, c.pixels, path);
@@ -221,8 +216,25 @@ PathSet PathSet::merged(std::span<const PathSet> sets) {
     out.splatOwners = std::move(splatOwners);
     out.splats = std::move(splats);
     out.strings = std::move(strings.strings);
+    return out;
+}
+
+}  // namespace
+
+PathSet PathSet::merged(std::span<const PathSet> sets) {
+    if (sets.empty()) return {};
+    if (sets.size() == 1) return sets[0];
     PathSet set;
-    set.columns_ = std::move(out);
+    set.columns_ = gathered(sets, orderedSources(sets));
+    return set;
+}
+
+PathSet PathSet::subset(std::span<const Index> paths) const {
+    std::vector<Source> sources;
+    sources.reserve(paths.size());
+    for (const Index path : paths) sources.push_back({0, path});
+    PathSet set;
+    set.columns_ = gathered({this, 1}, sources);
     return set;
 }
 

@@ -144,6 +144,35 @@ TEST(PathSet, MergingKeepsEverythingInOrder) {
     EXPECT_EQ(merged.splats(1).size(), 1u);
 }
 
+TEST(PathSet, ASubsetHoldsItsPathsAndNothingElse) {
+    const std::vector<PathSet> both{*PathSet::make(sampleColumns(1, "early")), *PathSet::make(sampleColumns(3, "late"))};
+    const PathSet all = PathSet::merged(both);
+    std::vector<Index> every(all.pathCount());
+    for (Index p = 0; p < all.pathCount(); ++p) every[p] = p;
+    for (Index left = 0; left < all.pathCount(); ++left) {
+        std::vector<Index> others = every;
+        others.erase(others.begin() + left);
+        const PathSet some = all.subset(others);
+        ASSERT_TRUE(PathSet::make(some.columns()).ok()) << PathSet::make(some.columns()).error().message;
+        ASSERT_EQ(some.pathCount(), others.size());
+        for (Index p = 0; p < some.pathCount(); ++p) {
+            EXPECT_EQ(some.sample(p), all.sample(others[p]));
+            EXPECT_EQ(some.estimate(p), all.estimate(others[p]));
+            ASSERT_EQ(some.vertices(p).size(), all.vertices(others[p]).size());
+            for (Index i = 0; i < some.vertices(p).size(); ++i) {
+                const Index v = some.vertices(p).first + i, w = all.vertices(others[p]).first + i;
+                EXPECT_EQ(some.position(v), all.position(w));
+                EXPECT_EQ(some.contributions(v).size(), all.contributions(w).size());
+                for (std::size_t c = 0; c < all.userColumns().size(); ++c) {
+                    if (all.userColumns()[c].scope == Scope::path) continue;
+                    EXPECT_EQ(some.last(some.userColumns()[c], v), all.last(all.userColumns()[c], w));
+                }
+            }
+        }
+    }
+    EXPECT_TRUE(all.subset({}).empty());
+}
+
 TEST(PathSet, MergingThePathOfALaterSetReplacesTheEarlier) {
     PathColumns changed = sampleColumns();
     changed.estimates = std::vector<Color>{Color(9.f), Color()};

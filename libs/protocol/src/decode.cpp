@@ -133,7 +133,17 @@ TraceRequest decodeBody(Decoder& d, const wire::TraceRequest& m) {
     request.query = d.text(m.query());
     request.budget = m.budget();
     request.locations = m.locations();
+    request.keep = d.enumeration(m.keep(), KeepMatches::brightest, "way to keep matches");
+    request.keepCount = m.keep_count();
     return request;
+}
+MatchCounts decodeMatches(Decoder& d, const wire::MatchCounts& m, std::size_t pixels) {
+    MatchCounts matches{m.paths(), m.matched(), m.unknown(), m.omitted(), d.texts(m.missing()),
+                        d.view<std::uint32_t>(m.matched_of_pixel()), d.view<Color>(m.sum_of_pixel())};
+    if (matches.matchedOfPixel.size() != pixels || matches.sumOfPixel.size() != pixels) {
+        d.fail("there is not one count and one sum of matches for each traced pixel");
+    }
+    return matches;
 }
 TraceResult decodeBody(Decoder& d, const wire::TraceResult& m) {
     TraceResult result;
@@ -153,6 +163,7 @@ TraceResult decodeBody(Decoder& d, const wire::TraceResult& m) {
                         s->paths_not_kept(), s->bytes()};
     }
     result.renderSeconds = m.render_seconds();
+    if (m.matches()) result.matches = decodeMatches(d, *m.matches(), result.pixels.size());
     if (!d.failed()) result.paths = decodePaths(d, m.paths());
     return result;
 }

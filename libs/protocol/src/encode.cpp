@@ -108,7 +108,14 @@ Encoded encodeBody(Builder& b, const TraceRequest& m) {
     const auto columns = texts(b, m.columns);
     const auto query = text(b, m.query);
     return body(wire::CreateTraceRequest(b, pixels, &rect, settings, static_cast<std::uint8_t>(m.against), m.renderId,
-                                         colors, columns, query, m.budget, m.locations));
+                                         colors, columns, query, m.budget, m.locations,
+                                         static_cast<std::uint8_t>(m.keep), m.keepCount));
+}
+flatbuffers::Offset<wire::MatchCounts> encodeMatches(Builder& b, const MatchCounts& m) {
+    const auto missing = texts(b, m.missing);
+    const auto counts = column(b, m.matchedOfPixel);
+    const auto sums = column(b, m.sumOfPixel);
+    return wire::CreateMatchCounts(b, m.paths, m.matched, m.unknown, m.omitted, missing, counts, sums);
 }
 Encoded encodeBody(Builder& b, const TraceResult& m) {
     const auto paths = encodePaths(b, m.paths.columns());
@@ -120,9 +127,10 @@ Encoded encodeBody(Builder& b, const TraceResult& m) {
     }
     const auto replayList = replays.empty() ? 0 : b.CreateVectorOfStructs(replays);
     const auto settings = encodeSettings(b, m.settings);
+    const auto matches = m.matches ? encodeMatches(b, *m.matches) : flatbuffers::Offset<wire::MatchCounts>();
     const wire::RecordingStats stats(m.stats.droppedWithoutPath, m.stats.droppedWithoutVertex, m.stats.droppedByBudget,
                                      m.stats.pathsNotKept, m.stats.bytes);
-    return body(wire::CreateTraceResult(b, pixels, replayList, settings, m.renderId, &stats, m.renderSeconds, paths));
+    return body(wire::CreateTraceResult(b, pixels, replayList, settings, m.renderId, &stats, m.renderSeconds, paths, matches));
 }
 Encoded encodeBody(Builder& b, const SurfaceRequest& m) {
     const auto layers = texts(b, m.layers);
@@ -168,7 +176,9 @@ std::size_t sizeHint(const TraceRequest& m) {
     return bytes;
 }
 std::size_t sizeHint(const TraceResult& m) {
-    return 1024 + m.pixels.size() * (sizeof(Pixel) + sizeof(Replay)) + encodedBytes(m.paths.columns());
+    std::size_t bytes = 1024 + m.pixels.size() * (sizeof(Pixel) + sizeof(Replay)) + encodedBytes(m.paths.columns());
+    if (m.matches) bytes += 256 + m.matches->matchedOfPixel.size() * 4 + m.matches->sumOfPixel.size() * sizeof(Color);
+    return bytes;
 }
 std::size_t sizeHint(const ToolRequest& m) { return 256 + m.tool.size() + m.data.size(); }
 std::size_t sizeHint(const ToolResult& m) { return 256 + m.data.size(); }

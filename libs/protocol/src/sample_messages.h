@@ -169,6 +169,7 @@ inline TraceResult traceResult(std::uint64_t seed, Index paths) {
     result.renderId = 9;
     result.stats = {1, 2, 3, 4, 5};
     result.renderSeconds = 0.25;
+    result.matches = MatchCounts{64, 5, 1, 3, {"pdf"}, std::vector<std::uint32_t>{2, 3}, std::vector<Color>{{1, 2, 3}, {4, 5, 6}}};
     result.paths = randomPaths(seed, paths);
     return result;
 }

@@ -97,7 +97,12 @@ Service::Answer Service::dispatch(const std::shared_ptr<Request>& request) {
 }
 
 Lane Service::laneOf(const protocol::Body& request) {
-    return std::holds_alternative<protocol::RenderRequest>(request) ? Lane::image : Lane::interactive;
+    if (std::holds_alternative<protocol::RenderRequest>(request)) return Lane::image;
+    // A query over a large part of the image takes as long as rendering it.
+    constexpr std::uint64_t kQuickPixels = 4096;
+    const auto* trace = std::get_if<protocol::TraceRequest>(&request);
+    const bool large = trace && !trace->query.empty() && std::max<std::uint64_t>(trace->pixels.size(), trace->rect.count()) > kQuickPixels;
+    return large ? Lane::image : Lane::interactive;
 }
 
 std::optional<protocol::Body> Service::immediately(const protocol::Body& request) const {

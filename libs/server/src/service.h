@@ -15,6 +15,8 @@
 
 namespace emca {
 
+struct ScanOptions;
+struct ScanResult;
 struct SurfaceCollection;
 
 /// Answers requests with the renderer's help; knows nothing of sockets. run() is called by the scheduler's threads.
@@ -46,6 +48,8 @@ class Service {
     Answer answer(const std::shared_ptr<Request>&, const protocol::RenderRequest&);
     Answer answer(const std::shared_ptr<Request>&, const protocol::TraceRequest&);
     Answer answer(const std::shared_ptr<Request>&, const protocol::ToolRequest&);
+    Result<ScanResult> replay(const std::shared_ptr<Request>&, const ScanOptions& options);
+    Result<ScanResult> scan(const std::shared_ptr<Request>&, const std::string& query, ScanOptions options);
 
     std::optional<protocol::Body> immediately(const protocol::Body& request) const;
     /// Where the layers that a render is to collect go; null if it asks for none.

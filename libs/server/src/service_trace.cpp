@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "emca/recorder/recording.h"
 #include "monitor.h"
+#include "path_scan.h"
 #include "service.h"
 #include "verdict.h"
 
@@ -55,7 +57,10 @@ std::string text(Pixel pixel) { return "(" + std::to_string(pixel.x) + ", " + st
 Result<std::vector<Pixel>> Service::pixelsOf(const protocol::TraceRequest& request) const {
     const std::uint64_t count = request.pixels.empty() ? request.rect.count() : request.pixels.size();
     if (count == 0) return Error{ErrorCode::invalidArgument, "No pixel was asked for: the list and the rectangle are empty."};
-    if (count > options_.maximumPixelsPerTrace) {
+    // With a query the reply does not grow with the pixels.
+    const std::uint64_t most = request.query.empty() ? options_.maximumPixelsPerTrace
+                                                     : std::max<std::uint64_t>(options_.maximumPixelsPerTrace, std::uint64_t(info_.width) * info_.height);
+    if (count > most) {
         return Error{ErrorCode::tooLarge, std::to_string(count) + " pixels were asked for at once, but this server allows at most " +
                                               std::to_string(options_.maximumPixelsPerTrace) + "."};
     }
@@ -79,10 +84,46 @@ Result<std::vector<Pixel>> Service::pixelsOf(const protocol::TraceRequest& reque
     return pixels;
 }
 
-Service::Answer Service::answer(const std::shared_ptr<Request>& request, const protocol::TraceRequest& asked) {
-    if (!asked.query.empty()) {
-        return Error{ErrorCode::notSupported, "A query was sent with the trace, but this server does not evaluate queries: leave it out and filter the paths at the client."};
+/// Replays all pixels into one recording.
+Result<ScanResult> Service::replay(const std::shared_ptr<Request>& request, const ScanOptions& options) {
+    RecordingOptions recorded;
+    recorded.pixels = options.pixels;
+    recorded.columns = options.columns;
+    recorded.budgetBytes = options.budgetBytes;
+    recorded.locations = options.locations;
+    recorded.observer = options.observer;
+    Recording recording(std::move(recorded));
+    JobMonitor monitor(request, false, tools());
+    auto values = [&] {
+        const RecordScope scope(recording);
+        return renderer_.renderPixels(options.pixels, options.settings, recording, monitor);
+    }();
+    if (!values) return values.error();
+    if (values->size() != options.pixels.size()) {
+        return Error{ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values->size()) + " values for " +
+                                                    std::to_string(options.pixels.size()) + " pixels."};
     }
+    auto paths = recording.finish();
+    if (!paths) return paths.error();
+    ScanResult result;
+    result.values = std::move(values).value();
+    result.paths = std::move(paths).value();
+    result.stats = recording.stats();
+    return result;
+}
+
+/// Replays the pixels batch by batch, and keeps what the query finds.
+Result<ScanResult> Service::scan(const std::shared_ptr<Request>& request, const std::string& text, ScanOptions options) {
+    const auto query = query::Query::parse(text);
+    if (!query) return query.error();
+    options.onePass = info_.pathsReachAnyPixel;
+    // Tools are told of one pixel at a time.
+    if (info_.concurrent && tools().empty()) options.threads = info_.threads ? info_.threads : std::thread::hardware_concurrency();
+    JobMonitor monitor(request, false, tools());
+    return scanPaths(renderer_, *query, options, monitor);
+}
+
+Service::Answer Service::answer(const std::shared_ptr<Request>& request, const protocol::TraceRequest& asked) {
     auto pixels = pixelsOf(asked);
     if (!pixels) return pixels.error();
     if (asked.against == protocol::Against::givenColors && asked.colors.size() != pixels->size()) {
@@ -92,56 +133,57 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
     const Reference reference = referenceOf(asked, images_, sceneSettings());
     if (auto samples = checkSamples(reference.settings.samplesPerPixel); !samples) return samples.error();
 
-    // A pixel that is asked for twice is replayed once: its paths would otherwise be recorded on top of each other.
-    std::vector<Pixel> unique = *pixels;
-    std::sort(unique.begin(), unique.end());
-    unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-
     ToolObserver observer(tools());
-    RecordingOptions options;
-    options.pixels = unique;
+    ScanOptions options;
+    // A pixel that is asked for twice is replayed once: its paths would otherwise be recorded on top of each other.
+    options.pixels = *pixels;
+    std::sort(options.pixels.begin(), options.pixels.end());
+    options.pixels.erase(std::unique(options.pixels.begin(), options.pixels.end()), options.pixels.end());
+    options.settings = toRenderer(reference.settings);
     options.columns = asked.columns;
+    options.keep = asked.keep;
+    options.keepCount = asked.keepCount;
     options.budgetBytes = asked.budget == 0 ? options_.defaultBudget
                                             : std::min<std::uint64_t>(asked.budget, options_.maximumBudget);
     options.locations = asked.locations;
     if (!tools().empty()) options.observer = &observer;
-    Recording recording(std::move(options));
-    JobMonitor monitor(request, false, tools());
 
     const auto begin = std::chrono::steady_clock::now();
-    Result<std::vector<Color>> values = [&] {
-        const RecordScope scope(recording);
-        return renderer_.renderPixels(unique, toRenderer(reference.settings), recording, monitor);
-    }();
+    auto done = asked.query.empty() ? replay(request, options) : scan(request, asked.query, options);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (!values) return values.error();
+    if (!done) return done.error();
     if (request->cancelled) return Error{ErrorCode::cancelled, "The trace was cancelled."};
-    if (values->size() != unique.size()) {
-        return Error{ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values->size()) + " values for " +
-                                                    std::to_string(unique.size()) + " pixels."};
-    }
-    auto paths = recording.finish();
-    if (!paths) return paths.error();
 
     protocol::TraceResult result;
     result.settings = reference.settings;
     result.renderId = reference.image ? reference.image->id : 0;
-    result.stats = recording.stats();
+    result.stats = done->stats;
     result.renderSeconds = seconds.count();
-    result.paths = std::move(paths).value();
-    const bool complete = recordsSums(asked.columns) && result.stats.droppedByBudget == 0;
-    const auto sums = checkSums(result.paths, unique, reference.settings.samplesPerPixel, *values, complete);
+    result.paths = std::move(done->paths);
+    const std::vector<Pixel>& unique = options.pixels;
+    const bool complete = recordsSums(asked.columns) && result.stats.droppedByBudget == 0 && done->complete;
+    const auto sums = checkSums(result.paths, unique, reference.settings.samplesPerPixel, done->values, complete);
+    std::vector<std::uint32_t> matched;
+    std::vector<Color> matchedSums;
     for (std::size_t i = 0; i < pixels->size(); ++i) {
         const Pixel pixel = (*pixels)[i];
         const auto place = static_cast<std::size_t>(std::lower_bound(unique.begin(), unique.end(), pixel) - unique.begin());
         Replay replay;
-        replay.replayed = (*values)[place];
+        replay.replayed = done->values[place];
         replay.sums = sums[place];
         if (reference.image || asked.against == protocol::Against::givenColors) {
             replay.rendered = reference.image ? reference.image->image.color.color(pixel) : asked.colors[i];
             replay.verdict = compare(replay.rendered, replay.replayed);
         }
         result.replays.push_back(replay);
+        if (asked.query.empty()) continue;
+        matched.push_back(done->matches.matchedOfPixel[place]);
+        matchedSums.push_back(done->matches.sumOfPixel[place]);
+    }
+    if (!asked.query.empty()) {
+        done->matches.matchedOfPixel = std::move(matched);
+        done->matches.sumOfPixel = std::move(matchedSums);
+        result.matches = std::move(done->matches);
     }
     result.pixels = std::move(pixels).value();
     return last(std::move(result));

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "emca/core/camera.h"
 #include "emca/core/image.h"
+#include "emca/core/match_counts.h"
 #include "emca/core/mesh.h"
 #include "emca/core/path_set.h"
 #include "emca/core/replay.h"
@@ -91,7 +93,9 @@ struct TraceOptions {
     std::vector<Color> colors;                ///< with VerdictAgainst::givenColors: one per pixel, of an opened image
     /// Names of the columns wanted, core ones as docs/protocol.md names them; empty: all.
     std::vector<std::string> columns;
-    std::string query;                        ///< only paths for which it is true; empty: all
+    std::string query;                        ///< only paths for which it is true (docs/queries.md); empty: all
+    KeepMatches keep = KeepMatches::all;      ///< with a query: which of its paths the reply brings
+    std::uint32_t keepCount = 0;              ///< with KeepMatches::brightest
     std::uint64_t budget = 0;                 ///< bytes of the recording; 0: the server's default
     bool locations = false;                   ///< source line of each value
 };
@@ -108,6 +112,7 @@ struct Trace {
     std::uint64_t renderId = 0;       ///< the kept image that it was compared with; 0 if none
     std::uint64_t seed = 0;           ///< with these settings it was replayed
     std::string integrator, sampler;
+    std::optional<MatchCounts> matches;  ///< what the query found, where there was one
 };
 
 /// Told while a request runs; calls come from the connection's own thread, so they must be quick.

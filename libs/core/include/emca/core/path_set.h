@@ -193,6 +193,8 @@ class PathSet {
 
     /// Paths of several sets in one, ordered; where two hold the same path, that of the later set stays.
     static PathSet merged(std::span<const PathSet> sets);
+    /// The paths at these positions, which ascend, as a set of their own.
+    PathSet subset(std::span<const Index> paths) const;
 
   private:
     bool flag(Index vertex, std::uint8_t bit) const { return (columns_.vertexFlags[vertex] & bit) != 0; }

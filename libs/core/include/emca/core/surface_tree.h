@@ -55,6 +55,29 @@ constexpr std::uint32_t descend(std::uint32_t& u, std::uint32_t& v) {
     return first + 2 * second + 3 * middle;
 }
 
+/// The children that contain the point, from the whole triangle down: two bits a level, the first in the highest, for
+/// kMaxSurfaceLevel levels. As descend(), but for all levels at once (points on an edge may go to the other side): a
+/// child of level k is a cell of a grid of 2^-k, halved by its diagonal, and the carry of u + v into that digit tells on
+/// which side of it the point is. On the upper side, digits count backwards.
+constexpr std::uint32_t surfacePath(std::uint32_t u, std::uint32_t v) {
+    const std::uint32_t border = (u + v) >> 30;  // on the edge opposite to the first vertex: just inside
+    const std::uint32_t fromU = border & static_cast<std::uint32_t>(u > v);
+    u -= fromU;
+    v -= border - fromU;
+    const std::uint32_t side = (u + v) ^ u ^ v, above = side >> 1;
+    const std::uint32_t first = u ^ above, second = v ^ above, middle = ~(first | second) & (side ^ above);
+    const auto spread = [](std::uint32_t x) {  // the 16 highest of 30 digits, to every other bit
+        x = x >> 14 & 0xffffu;
+        x = (x | x << 8) & 0x00ff00ffu;
+        x = (x | x << 4) & 0x0f0f0f0fu;
+        x = (x | x << 2) & 0x33333333u;
+        return (x | x << 1) & 0x55555555u;
+    };
+    return spread(first | middle) | spread(second | middle) << 1;
+}
+constexpr std::uint32_t firstChild(std::uint32_t path) { return path >> 30; }
+constexpr std::uint32_t below(std::uint32_t path) { return path << 2; }
+
 /// From weights of the second and third vertex, moved into the triangle. Finite ones only.
 constexpr void toFixed(float fu, float fv, std::uint32_t& u, std::uint32_t& v) {
     const auto fixed = [](float f) { return f >= 1.f ? kOne : f > 0.f ? std::uint32_t(f * float(kOne)) : 0u; };

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "emca/core/camera.h"
+#include "emca/core/match_counts.h"
 #include "emca/core/mesh.h"
 #include "emca/core/path_set.h"
 #include "emca/core/pixel.h"
@@ -139,6 +141,8 @@ struct TraceRequest {
     std::string query;
     std::uint64_t budget = 0;
     bool locations = false;
+    KeepMatches keep = KeepMatches::all;             ///< with a query
+    std::uint32_t keepCount = 0;                     ///< with KeepMatches::brightest
 };
 struct TraceResult {
     std::vector<Pixel> pixels;
@@ -148,6 +152,7 @@ struct TraceResult {
     RecordingStats stats;
     double renderSeconds = 0;
     PathSet paths;
+    std::optional<MatchCounts> matches;              ///< where a query came with the request
 };
 
 /// Layers of a render that is kept.

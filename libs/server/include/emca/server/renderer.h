@@ -29,6 +29,11 @@ struct RendererInfo {
     bool concurrent = false;
     /// The same settings give the same bits, so that a replay can be exact.
     bool deterministic = true;
+    /// Threads that renderPixel may be called from at once for a query over many pixels; 0: as many as the machine has. Only
+    /// if `concurrent`.
+    unsigned threads = 0;
+    /// Paths may add to any pixel (light tracing, Metropolis): renderPixels does its work once for all pixels.
+    bool pathsReachAnyPixel = false;
     std::vector<std::string> capabilities;  ///< further words, e.g. "denoiser"; the server adds its own
 };
 
