@@ -3,8 +3,6 @@
 // between them, since the shard belongs to this thread.
 #include <algorithm>
 #include <bit>
-#include <cassert>
-#include <cmath>
 #include <cstring>
 
 #include "emca/core/surface_tree.h"
@@ -16,7 +14,7 @@ struct SurfaceStore::Lane {
     SurfaceRef* slot;  ///< first the one of the face, then of what is below it
     SurfaceNode* node;
     const std::uint32_t* record;
-    std::uint32_t u, v;
+    std::uint32_t path;
 };
 
 namespace {
@@ -67,7 +65,15 @@ bool SurfaceStore::help() {
     return found;
 }
 
+/// Keeps a function that only prefetches: GCC takes it for one without effect and removes its calls.
+inline void keepPrefetches() {
+#ifdef __GNUC__
+    asm volatile("" ::: "memory");
+#endif
+}
+
 void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
+    if (block.hasPositions) resolvePositions(block);
     const std::uint32_t* record = block.data();
     const std::uint32_t count = block.words / recordWords_;
     const auto ahead = [&](std::uint32_t group, std::uint32_t done) {  // how many records that group has
@@ -78,84 +84,79 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
     // in between keeps what the later group found it for, as it does with points of other threads.
     Lane lanes[2][kLanes];
     std::uint32_t pending = 0;
-    std::uint64_t points = 0;
     prefetchFaces(record, ahead(0, 0));
-    prefetchFaces(record + groupWords, ahead(1, 0));
-    prefetchVertices(record, ahead(0, 0));
     for (std::uint32_t done = 0, turn = 0; done < count; done += kLanes, record += groupWords, turn ^= 1) {
-        prefetchFaces(record + 2 * groupWords, ahead(2, done));
-        prefetchVertices(record + groupWords, ahead(1, done));
+        prefetchFaces(record + groupWords, ahead(1, done));
         const std::uint32_t used = ahead(0, done);
-        points += enter(shard, record, used, lanes[turn]);
+        enter(shard, record, used, lanes[turn]);
         descendAll(lanes[turn], used);
         for (std::uint32_t i = 0; i < pending; ++i) addRecord(shard, lanes[turn ^ 1][i]);
         pending = used;
         if (done + kLanes >= count)
             for (std::uint32_t i = 0; i < used; ++i) addRecord(shard, lanes[turn][i]);
     }
-    bump(shard.points, points);
 }
 
-/// Keeps a function that only prefetches: GCC takes it for one without effect and removes its calls.
-inline void keepPrefetches() {
-#ifdef __GNUC__
-    asm volatile("" ::: "memory");
-#endif
+/// From positions to paths, in three steps: what is prefetched in one is there in the next. Only points are left.
+void SurfaceStore::resolvePositions(SurfaceBlock& block) const {
+    constexpr std::uint32_t kAhead = 12;
+    const std::uint32_t count = block.words / recordWords_;
+    const auto positionOf = [&](std::uint32_t i) -> const std::uint32_t* {  // or null
+        const std::uint32_t* record = block.data() + std::size_t(i) * recordWords_;
+        return i < count && record[0] == kNoFace ? record : nullptr;
+    };
+    const auto triangleOf = [&](const std::uint32_t* position) -> const Triangle& {
+        const std::uint32_t *place = position + recordWords_, mesh = place[1];
+        return meshes_[mesh].triangles[place[0] - faceStarts_[mesh]];
+    };
+    keepPrefetches();
+    std::uint32_t* end = block.data();
+    for (std::uint32_t i = 0; i < count + 2 * kAhead; ++i) {
+        if (const std::uint32_t* position = positionOf(i)) __builtin_prefetch(&triangleOf(position));
+        if (const std::uint32_t* position = i < kAhead ? nullptr : positionOf(i - kAhead)) {
+            const auto first = reinterpret_cast<std::uintptr_t>(meshes_[position[recordWords_ + 1]].positions.data());
+            // Only a hint: an index beyond the vertices does no harm here.
+            for (const std::uint32_t vertex : triangleOf(position))
+                __builtin_prefetch(reinterpret_cast<const void*>(first + vertex * sizeof(Vec3f)));
+        }
+        if (i < 2 * kAhead) continue;
+        std::uint32_t* record = block.data() + std::size_t(i - 2 * kAhead) * recordWords_;
+        if (record[0] == kNoFace) {
+            std::uint32_t* place = record + recordWords_;
+            place[1] = pathOf(place[1], place[0],
+                              {std::bit_cast<float>(record[1]), std::bit_cast<float>(record[2]),
+                               std::bit_cast<float>(record[3])});
+        } else {
+            end = std::copy_n(record, recordWords_, end);
+        }
+    }
+    block.words = static_cast<std::uint32_t>(end - block.data());
 }
 
-/// First of two steps before records are applied: what their faces are found by.
+/// Before records are applied: what their faces are found by.
 void SurfaceStore::prefetchFaces(const std::uint32_t* record, std::uint32_t count) const {
     keepPrefetches();
-    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
-        const SurfacePlace& place = placeOf(record);
-        if (const SurfaceRef* slot = slotOf(place.face)) __builtin_prefetch(slot);
-        if (record[kPlaceWords] & kIsPosition)
-            __builtin_prefetch(&meshes_[place.mesh].triangles[place.face - faceStarts_[place.mesh]]);
-    }
+    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_)
+        if (const SurfaceRef* slot = slotOf(record[0])) __builtin_prefetch(slot);
 }
 
-/// Second step, when those are there.
-void SurfaceStore::prefetchVertices(const std::uint32_t* record, std::uint32_t count) const {
-    keepPrefetches();
+/// From records to the references of their faces.
+void SurfaceStore::enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes) {
+    std::uint32_t points = 0;
     for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
-        if (!(record[kPlaceWords] & kIsPosition)) continue;
-        const SurfacePlace& place = placeOf(record);
-        const SurfaceMeshView& mesh = meshes_[place.mesh];
-        const Triangle& t = mesh.triangles[place.face - faceStarts_[place.mesh]];
-        // Only a hint: an index beyond the vertices does no harm here.
-        for (const std::uint32_t vertex : t)
-            __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(mesh.positions.data()) +
-                                                             vertex * sizeof(Vec3f)));
-    }
-}
-
-/// From records to the references of their faces. Returns how many count as points.
-std::uint32_t SurfaceStore::enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes) {
-    std::uint32_t points = 0, coarse = 0;
-    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
-        const std::uint32_t face = placeOf(record).face, counted = !(record[kPlaceWords] & kNotCounted);
-        Lane& lane = lanes[i];
-        lane.record = record;
-        lane.slot = slotOf(face);
-        if (lane.slot == nullptr || !*lane.slot) [[unlikely]] {
-            lane.slot = newRoot(shard, face);
-            if (lane.slot == nullptr) {
-                lane.slot = binOf(face);
-                coarse += counted;
+        const std::uint32_t face = record[0], counted = ~record[kPlaceWords] & kNotCounted;
+        SurfaceRef* slot = slotOf(face);
+        if (slot == nullptr || !*slot) [[unlikely]] {
+            slot = newRoot(shard, face);
+            if (slot == nullptr) {
+                slot = binOf(face);
+                bump(shard.coarse, counted);
             }
         }
-        coordinates(record, lane.u, lane.v);
+        lanes[i] = {slot, nullptr, record, record[1]};
         points += counted;
     }
-    if (coarse > 0) bump(shard.coarse, coarse);
-    return points;
-}
-
-void SurfaceStore::coordinates(const std::uint32_t* record, std::uint32_t& u, std::uint32_t& v) const {
-    const SurfacePlace& place = placeOf(record);
-    u = place.where[0];
-    v = place.where[1];
-    if (record[kPlaceWords] & kIsPosition) toBarycentrics(place, u, v);
+    bump(shard.points, points);
 }
 
 /// From the references of faces to the nodes of the smallest triangles that contain the points, level by level: what is
@@ -168,7 +169,8 @@ void SurfaceStore::descendAll(Lane* lanes, std::uint32_t count) const {
         for (std::uint32_t k = 0; k < left; ++k) {
             Lane& lane = lanes[active[k]];
             const SurfaceRef ref = *lane.slot;
-            const std::uint32_t which = descend(lane.u, lane.v);
+            const std::uint32_t which = firstChild(lane.path);
+            lane.path = below(lane.path);
             if (ref.kind() == SurfaceRef::inner) {
                 lane.slot = ref.children() + which;
                 __builtin_prefetch(lane.slot);
@@ -183,29 +185,31 @@ void SurfaceStore::descendAll(Lane* lanes, std::uint32_t count) const {
     }
 }
 
+/// Adds the values of one mask, whose bit 0 belongs to `layout`.
+inline void addValues(SurfaceNode* node, const std::uint32_t* record, std::uint32_t mask, const SurfaceLayerLayout* layout) {
+    for (; mask != 0; mask &= mask - 1) {
+        const SurfaceLayerLayout& layer = layout[std::countr_zero(mask)];
+        auto* cell = SurfaceStore::cell<SurfaceCell>(node, layer);
+        ++cell->count;
+        const std::uint32_t* value = record + layer.valueWord;
+        double* sums = cell->sums;
+        sums[0] += double(std::bit_cast<float>(value[0]));
+        if (layer.channels == 3) {
+            sums[1] += double(std::bit_cast<float>(value[1]));
+            sums[2] += double(std::bit_cast<float>(value[2]));
+        }
+    }
+}
+
 void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
     SurfaceNode* node = lane.node;
     const std::uint32_t* record = lane.record;
-    node->points += !(record[kPlaceWords] & kNotCounted);
-    // Behind the flags, bit 0 of the first mask would be two layers before the first.
-    std::ptrdiff_t first = -std::ptrdiff_t(kFirstMaskFlags);
-    std::uint32_t drop = kNotCounted | kIsPosition;
-    for (const std::uint16_t maskWord : maskWords_) {
-        for (std::uint32_t mask = record[maskWord] & ~drop; mask != 0; mask &= mask - 1) {
-            const SurfaceLayerLayout& layer = layouts_[static_cast<std::size_t>(first + std::countr_zero(mask))];
-            auto* cellOf = cell<SurfaceCell>(node, layer);
-            ++cellOf->count;
-            const std::uint32_t* value = record + layer.valueWord;
-            double* sums = cellOf->sums;
-            sums[0] += double(std::bit_cast<float>(value[0]));
-            if (layer.channels == 3) {
-                sums[1] += double(std::bit_cast<float>(value[1]));
-                sums[2] += double(std::bit_cast<float>(value[2]));
-            }
-        }
-        first += 32;
-        drop = 0;
-    }
+    const std::uint32_t mask = record[kPlaceWords];
+    node->points += ~mask & kNotCounted;
+    const SurfaceLayerLayout* layouts = layouts_.data();
+    addValues(node, record, mask >> kFirstMaskFlags, layouts);
+    for (std::size_t i = 1; i < maskWords_.size(); ++i)
+        addValues(node, record, record[maskWords_[i]], layouts + 32 * i - kFirstMaskFlags);
     if (node->points >= pointsToDivide_ && !(node->parent & kFinal)) [[unlikely]]
         divide(shard, node, record);
 }

@@ -12,21 +12,14 @@ namespace emca::detail {
 /// Divides the triangle of a node, which contains the point of the record, unless that is not to be.
 void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record) {
     node->parent |= kFinal;
-    const SurfacePlace& place = placeOf(record);
-    std::uint32_t u = 0, v = 0, level = 0;
-    coordinates(record, u, v);
-    SurfaceRef* slot = slotOf(place.face);
-    while (slot->kind() == SurfaceRef::inner) {
-        slot = slot->children() + descend(u, v);
-        ++level;
-    }
-    std::uint32_t which = 0;
-    if (slot->kind() == SurfaceRef::leaves) {
-        which = descend(u, v);
-        ++level;
-    }
+    const std::uint32_t face = record[0];
+    std::uint32_t path = record[1], level = 0;
+    SurfaceRef* slot = slotOf(face);
+    for (; slot->kind() == SurfaceRef::inner; path = below(path), ++level) slot = slot->children() + firstChild(path);
+    const std::uint32_t which = firstChild(path);
+    level += slot->kind() == SurfaceRef::leaves;
     assert(slot->end(which, nodeBytes_) == node);
-    if (mayDivide(place, level) && !divide(shard, *slot, which)) bump(shard.refused, 1);
+    if (mayDivide(face, level) && !divide(shard, *slot, which)) bump(shard.refused, 1);
 }
 
 /// False beyond the budget.
@@ -52,10 +45,11 @@ bool SurfaceStore::divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t wh
     return true;
 }
 
-bool SurfaceStore::mayDivide(const SurfacePlace& place, std::uint32_t level) const {
+bool SurfaceStore::mayDivide(std::uint32_t face, std::uint32_t level) const {
     if (level >= options_.maximumLevel) return false;
-    const auto face = static_cast<std::uint32_t>(place.face - faceStarts_[place.mesh]);
-    const double childArea = std::ldexp(area(place.mesh, face), -2 * static_cast<int>(level + 1));
+    const std::uint32_t mesh = meshOf(face);
+    const double whole = area(mesh, static_cast<std::uint32_t>(face - faceStarts_[mesh]));
+    const double childArea = std::ldexp(whole, -2 * static_cast<int>(level + 1));
     return childArea > 0 && childArea >= minimumArea_;
 }
 
@@ -67,21 +61,16 @@ void SurfaceStore::divideAll(double part) {
         if (pages_[page] == nullptr) continue;
         const std::uint64_t end = std::min((page + 1) << pageBits_, faceCount_);
         for (std::uint64_t face = page << pageBits_; face < end; ++face) {
-            const auto f = static_cast<std::uint32_t>(face);
-            SurfaceRef* slot = slotOf(f);
-            if (!*slot) continue;
-            SurfacePlace place;
-            place.face = f;
-            place.mesh = meshOf(f);
-            divideBelow(*slot, place, 0, 0, growth);
+            SurfaceRef* slot = slotOf(static_cast<std::uint32_t>(face));
+            if (*slot) divideBelow(*slot, static_cast<std::uint32_t>(face), 0, 0, growth);
         }
     }
 }
 
 /// \param inherited  points that came before the triangle was divided off, were they spread evenly
-void SurfaceStore::divideBelow(SurfaceRef& ref, const SurfacePlace& place, std::uint32_t level, double inherited,
+void SurfaceStore::divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited,
                                double growth) {
-    SurfaceShard& shard = shards_[shardOf(place.face)];
+    SurfaceShard& shard = shards_[shardOf(face)];
     const auto consider = [&](SurfaceRef& at, std::uint32_t which, std::uint32_t itsLevel, double above) {
         SurfaceNode* node = at.end(which, nodeBytes_);
         const double all = double(node->points) + above;
@@ -90,7 +79,7 @@ void SurfaceStore::divideBelow(SurfaceRef& ref, const SurfacePlace& place, std::
         if (3 * all * growth < 4 * double(options_.samplesPerDivision) || 8 * double(node->points) < all || node->parent & kFinal)
             return;
         node->parent |= kFinal;
-        if (mayDivide(place, itsLevel) && !divide(shard, at, which)) bump(shard.refused, 1);
+        if (mayDivide(face, itsLevel) && !divide(shard, at, which)) bump(shard.refused, 1);
     };
     if (ref.kind() == SurfaceRef::leaf) return consider(ref, 0, level, inherited);
     const double each = (inherited + double(ref.own()->points)) / 4;
@@ -98,7 +87,7 @@ void SurfaceStore::divideBelow(SurfaceRef& ref, const SurfacePlace& place, std::
         if (ref.kind() == SurfaceRef::leaves) {
             consider(ref, k, level + 1, each);  // which may make it an inner one
         } else {
-            divideBelow(ref.children()[k], place, level + 1, each, growth);
+            divideBelow(ref.children()[k], face, level + 1, each, growth);
         }
     }
 }

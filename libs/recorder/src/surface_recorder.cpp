@@ -1,9 +1,10 @@
 #include "emca/recorder/surface_recorder.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include "emca/core/surface_tree.h"
 #include "surface_store.h"
@@ -12,8 +13,9 @@ namespace emca {
 namespace detail {
 
 SurfaceCursorImpl::SurfaceCursorImpl(SurfaceStore& owner)
-    : store(owner), serialNumbers(owner.shardCount(), 1), open(owner.shardCount()) {
-    serials = serialNumbers.data();
+    : SurfaceCursorState(owner.cursorState()), store(owner), openRecords(owner.shardCount()),
+      openBlocks(owner.shardCount(), nullptr) {
+    open = openRecords.data();
     impl = this;
 }
 
@@ -21,16 +23,40 @@ SurfaceCursorImpl::~SurfaceCursorImpl() {
     for (SurfaceBlock* block : blocks) ::operator delete(block);
 }
 
+void SurfaceCursorState::replaceBlock(std::uint32_t shard) { impl->replaceBlock(shard); }
+
+void SurfaceCursorState::countInvalid() { bump(impl->invalid, 1); }
+
+void SurfaceCursorImpl::closeBlock(std::uint32_t shard) {
+    SurfaceBlock* block = std::exchange(openBlocks[shard], nullptr);
+    if (block == nullptr) return;
+    Open& from = openRecords[shard];
+    block->words = static_cast<std::uint32_t>(from.next - block->data());
+    store.submit(block, shard);
+    from = {nullptr, nullptr, from.serial + 1};
+}
+
 void SurfaceCursorImpl::replaceBlock(std::uint32_t shard) {
-    Open& to = open[shard];
-    if (to.block != nullptr) {
-        to.block->words = static_cast<std::uint32_t>(to.next - to.block->data());
-        store.submit(to.block, shard);
-        ++serialNumbers[shard];
+    closeBlock(shard);
+    SurfaceBlock* block = openBlocks[shard] = newBlock();
+    block->hasPositions = false;
+    openRecords[shard].next = block->data();
+    openRecords[shard].end = block->data() + (store.blockBytes() - sizeof(SurfaceBlock)) / sizeof(std::uint32_t);
+}
+
+/// A record for a place, with no values and no flags yet.
+std::uint32_t* SurfaceCursorImpl::appendPlace(const SurfacePlace& place, std::uint32_t shard) {
+    std::uint32_t* record = append(shard, place.isPosition ? 2 : 1);
+    if (place.isPosition) {
+        openBlocks[shard]->hasPositions = true;
+        record[0] = kNoFace;
+        for (int i = 0; i < 3; ++i) record[1 + i] = std::bit_cast<std::uint32_t>(place.position[i]);
+        record += recordWords;
     }
-    to.block = newBlock();
-    to.next = to.block->data();
-    to.end = to.next + (store.blockBytes() - sizeof(SurfaceBlock)) / sizeof(std::uint32_t);
+    record[0] = place.face;
+    record[1] = place.path;
+    record[kPlaceWords] = 0;
+    return record;
 }
 
 SurfaceBlock* SurfaceCursorImpl::newBlock() {
@@ -44,7 +70,7 @@ SurfaceBlock* SurfaceCursorImpl::newBlock() {
         if (blocks.size() < store.blocksPerCursor()) {
             void* memory = ::operator new(store.blockBytes());
             store.addUsed(store.blockBytes());
-            auto* block = new (memory) SurfaceBlock{nullptr, this, 0};
+            auto* block = new (memory) SurfaceBlock{nullptr, this, 0, false};
             blocks.push_back(block);
             return block;
         }
@@ -57,9 +83,8 @@ SurfaceBlock* SurfaceCursorImpl::newBlock() {
 void SurfaceCursorState::addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value) {
     SurfaceCursorImpl& cursor = *at.cursor_->impl;
     if (!finiteBits(value.r) || !finiteBits(value.g) || !finiteBits(value.b)) return cursor.countInvalid();
-    std::uint32_t* record = cursor.append(at.shard_);
-    std::memcpy(record, &at.place_, sizeof at.place_);
-    record[kPlaceWords] = at.flags_ | kNotCounted;
+    std::uint32_t* record = cursor.appendPlace(at.place_, at.shard_);
+    record[kPlaceWords] = kNotCounted;
     record[layer.maskWord_] |= 1u << layer.bit_;
     record[layer.value_] = std::bit_cast<std::uint32_t>(value.r);
     if (layer.channels_ == 1) return;
@@ -86,14 +111,7 @@ void SurfaceStore::release(SurfaceCursorImpl* cursor) {
 void SurfaceStore::flush() {
     const std::lock_guard lock(cursorsMutex_);
     for (const auto& cursor : cursors_)
-        for (std::uint32_t shard = 0; shard < shardCount_; ++shard) {
-            SurfaceCursorImpl::Open& open = cursor->open[shard];
-            if (open.block == nullptr) continue;
-            open.block->words = static_cast<std::uint32_t>(open.next - open.block->data());
-            submit(open.block, shard);
-            open = {};
-            ++cursor->serialNumbers[shard];
-        }
+        for (std::uint32_t shard = 0; shard < shardCount_; ++shard) cursor->closeBlock(shard);
 }
 
 namespace {
@@ -202,58 +220,18 @@ SurfaceCursor& SurfaceRecorder::cursor() {
     return *entries.back().handle;
 }
 
-/// The global face, or ~0 (and counted) if there is no such place. Faces beyond 2^32 - 1 do not take part.
-inline std::uint32_t SurfaceCursor::check(std::uint32_t mesh, std::uint32_t face, bool finite) const {
-    detail::SurfaceCursorImpl& cursor = *state_->impl;
-    const std::vector<std::uint64_t>& starts = cursor.store.faceStarts();
-    if (mesh + std::size_t(1) < starts.size() && finite) [[likely]] {
-        const std::uint64_t global = starts[mesh] + face;
-        if (global < starts[mesh + 1] && global < kNoFace) [[likely]] return static_cast<std::uint32_t>(global);
-    }
-    cursor.countInvalid();
-    return kNoFace;
-}
-
-/// Writes record and point word by word from registers: what was just stored in words is slow to load as a whole.
-inline SurfacePoint SurfaceCursor::record(std::uint32_t mesh, std::uint32_t face, std::uint32_t a, std::uint32_t b,
-                                          std::uint32_t c, std::uint32_t flags) {
-    detail::SurfaceCursorImpl& cursor = *state_->impl;
-    const std::uint32_t shard = cursor.store.shardOf(face);
-    std::uint32_t* record = cursor.append(shard);
-    static_assert(detail::kPlaceWords == 5);
-    record[0] = face;
-    record[1] = mesh;
-    record[2] = a;
-    record[3] = b;
-    record[4] = c;
-    record[detail::kPlaceWords] = flags;
-    SurfacePoint at;
-    at.cursor_ = state_;
-    at.record_ = record;
-    at.serial_ = cursor.serialNumbers[shard];
-    at.shard_ = shard;
-    at.place_ = {face, mesh, {a, b, c}};
-    at.flags_ = flags;
-    return at;
-}
-
-SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
-    if (state_ == nullptr) return {};
-    const std::uint32_t global =
-        check(mesh, face, detail::finiteBits(barycentrics.x) && detail::finiteBits(barycentrics.y));
-    if (global == kNoFace) return {};
-    std::uint32_t u = 0, v = 0;
-    detail::toFixed(barycentrics.x, barycentrics.y, u, v);
-    return record(mesh, global, u, v, 0, 0);
-}
-
 SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f p) {
-    if (state_ == nullptr) return {};
+    SurfacePoint at;
+    if (state_ == nullptr) return at;
     const std::uint32_t global =
-        check(mesh, face, detail::finiteBits(p.x) && detail::finiteBits(p.y) && detail::finiteBits(p.z));
-    if (global == kNoFace) return {};
-    return record(mesh, global, std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
-                  std::bit_cast<std::uint32_t>(p.z), detail::kIsPosition);
+        state_->check(mesh, face, detail::finiteBits(p.x) && detail::finiteBits(p.y) && detail::finiteBits(p.z));
+    if (global == detail::kNoFace) return at;
+    at.cursor_ = state_;
+    at.shard_ = state_->shardOf(global);
+    at.place_ = {global, mesh, {p.x, p.y, p.z}, true};
+    at.record_ = state_->impl->appendPlace(at.place_, at.shard_);
+    at.serial_ = state_->open[at.shard_].serial;
+    return at;
 }
 
 void SurfaceRecorder::passDone(double part) {

@@ -5,7 +5,9 @@
 
 #include <limits>
 #include <numeric>
+#include <random>
 
+#include "emca/core/surface_tree.h"
 #include "surface_for_tests.h"
 #include "surface_store.h"
 
@@ -138,6 +140,10 @@ TEST(SurfaceRecorder, SmallWeightsAreStillAddedToALargeSum) {
 TEST(SurfaceRecorder, PositionAndBarycentricsMeanTheSamePlace) {
     Collection byPosition({grid(3)}, {.samplesPerDivision = 16, .maximumLevel = 4});
     Collection byWeights({grid(3)}, {.samplesPerDivision = 16, .maximumLevel = 4});
+    for (Collection* c : {&byPosition, &byWeights}) {
+        c->record(20000, 6);
+        c->recorder.passDone(0.5);  // from here on, both divide no more
+    }
     UniformPoints points(byWeights.meshes[0], 5);
     for (int i = 0; i < 20000; ++i) {
         const UniformPoint p = points.next();
@@ -146,10 +152,25 @@ TEST(SurfaceRecorder, PositionAndBarycentricsMeanTheSamePlace) {
         byPosition.mean.add(byPosition.recorder.cursor().locate(0, p.face, above), 1.f);
     }
     const SurfaceField a = byPosition.recorder.finish(), b = byWeights.recorder.finish();
-    ASSERT_EQ(a.meshes[0].faceCount, b.meshes[0].faceCount);
+    ASSERT_EQ(a.meshes[0], b.meshes[0]);
+    ASSERT_GT(a.meshes[0].faceCount, 1000u);
     double apart = 0;  // points within rounding of a border may be on either side
     for (std::size_t i = 0; i < a.points.size(); ++i) apart += std::abs(double(a.points[i] - b.points[i]));
     EXPECT_LT(apart, 20);
+}
+
+TEST(SurfaceRecorder, APathIsWhatGoingDownStepByStepFinds) {
+    std::mt19937 random(4);
+    for (int i = 0; i < 100000; ++i) {
+        std::uint32_t u = random() & (detail::kOne - 1), v = random() & (detail::kOne - 1);
+        if (u + v >= detail::kOne) u = detail::kOne - 1 - u, v = detail::kOne - 1 - v;
+        std::uint32_t path = detail::surfacePath(u, v);
+        // On an edge, both sides are right; of 30 digits, the last ones are all zero too seldom to matter.
+        for (std::uint32_t level = 0; level < 12; ++level, path = detail::below(path))
+            ASSERT_EQ(detail::firstChild(path), detail::descend(u, v)) << i << ", level " << level;
+    }
+    for (const auto& [u, v] : {std::pair{0u, 0u}, {detail::kOne, 0u}, {0u, detail::kOne}})  // the three corners
+        EXPECT_EQ(detail::surfacePath(u, v), u ? 0x55555555u : v ? 0xaaaaaaaau : 0u);
 }
 
 TEST(SurfaceRecorder, WhatIsNotAPlaceOrAValueIsCountedAsInvalid) {

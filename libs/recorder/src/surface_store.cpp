@@ -78,6 +78,13 @@ void SurfaceStore::setUp() {
     nodeBytes_ = nodeBytes_ <= 64 ? std::bit_ceil(nodeBytes_) : roundUp(nodeBytes_, 32);
     divideBudget();
     shards_ = std::make_unique<SurfaceShard[]>(shardCount_);
+    common_.faceStarts = faceStarts_.data();
+    common_.meshCount = static_cast<std::uint32_t>(meshes_.size());
+    common_.recordWords = recordWords_;
+    common_.shardShift = pageBits_ + runBits_;
+    common_.shardMask = shardCount_ - 1;
+    common_.maskWords = maskWords_.data();
+    common_.maskWordCount = static_cast<std::uint32_t>(maskWords_.size());
 }
 
 void SurfaceStore::divideBudget() {
@@ -174,22 +181,22 @@ double SurfaceStore::area(std::uint32_t mesh, std::uint32_t face) const {
     return std::isfinite(area) ? area : 0;
 }
 
-void SurfaceStore::toBarycentrics(const SurfacePlace& place, std::uint32_t& u, std::uint32_t& v) const {
-    u = v = 0;
-    const SurfaceMeshView& view = meshes_[place.mesh];
-    const Triangle t = view.triangles[place.face - faceStarts_[place.mesh]];
+std::uint32_t SurfaceStore::pathOf(std::uint32_t mesh, std::uint32_t face, Vec3f position) const {
+    const SurfaceMeshView& view = meshes_[mesh];
+    const Triangle t = view.triangles[face - faceStarts_[mesh]];
     const std::size_t count = view.positions.size();
-    if (t[0] >= count || t[1] >= count || t[2] >= count) return;
+    if (t[0] >= count || t[1] >= count || t[2] >= count) return 0;
     // Doubles: in thin triangles single precision would move points by many faces of the subdivision.
     const auto wide = [](Vec3f q) { return Vec3d{double(q.x), double(q.y), double(q.z)}; };
     const Vec3d origin = wide(view.positions[t[0]]);
     const Vec3d e1 = wide(view.positions[t[1]]) - origin, e2 = wide(view.positions[t[2]]) - origin;
-    const Vec3f position{std::bit_cast<float>(place.where[0]), std::bit_cast<float>(place.where[1]),
-                         std::bit_cast<float>(place.where[2])};
-    const Vec3d d = wide(position) - origin, n = cross(e1, e2);
-    const double scale = 1 / dot(n, n);
-    const float fu = float(dot(cross(d, e2), n) * scale), fv = float(dot(cross(e1, d), n) * scale);
+    const Vec3d d = wide(position) - origin;
+    const double a = dot(e1, e1), b = dot(e1, e2), c = dot(e2, e2), p = dot(d, e1), q = dot(d, e2);
+    const double scale = 1 / (a * c - b * b);
+    const float fu = float((c * p - b * q) * scale), fv = float((a * q - b * p) * scale);
+    std::uint32_t u = 0, v = 0;
     if (finiteBits(fu) && finiteBits(fv)) toFixed(fu, fv, u, v);
+    return surfacePath(u, v);
 }
 
 SurfaceRef SurfaceStore::root(std::uint32_t face) const {

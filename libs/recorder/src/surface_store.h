@@ -15,10 +15,6 @@ namespace emca::detail {
 
 struct SurfaceCursorImpl;
 
-inline const SurfacePlace& placeOf(const std::uint32_t* record) {
-    return *reinterpret_cast<const SurfacePlace*>(record);
-}
-
 /// For counters that many read and one thread writes.
 inline void bump(std::atomic<std::uint64_t>& counter, std::uint64_t by) {
     counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
@@ -75,18 +71,22 @@ struct SurfaceLayerLayout {
     std::uint8_t bit = 0, channels = 1;
 };
 
-/// What a thread has to say about one point, in words of 32 bits: a SurfacePlace, then for each 32 layers (30 in the first) a
-/// mask that tells which values are there, and room for all values. Positions become barycentric coordinates only when
-/// the record is applied, where the loads of many triangles overlap.
-constexpr std::uint32_t kPlaceWords = sizeof(SurfacePlace) / sizeof(std::uint32_t);
+/// What a thread has to say about one point, in words of 32 bits: the face of all faces, its surfacePath(), then for each
+/// 32 layers (30 in the first) a mask that tells which values are there, and room for all values.
+///
+/// A position becomes a path only when its block is applied, where the loads of many triangles overlap: it stands in a
+/// record of its own before the point's, whose face does not exist; the path of the point's is the mesh until then.
+constexpr std::uint32_t kPlaceWords = 2;
+constexpr std::uint32_t kNoFace = SurfaceCursorState::kNoFace;
 /// Bits of the first mask.
-constexpr std::uint32_t kNotCounted = 1, kIsPosition = 2, kFirstMaskFlags = 2;
+constexpr std::uint32_t kNotCounted = 1, kFirstMaskFlags = 1;
 
 /// Records for one shard, on their way from the thread that made them to whoever applies them.
 struct SurfaceBlock {
     SurfaceBlock* next;       ///< in the shard's list of waiting blocks, or in the home's list of free ones
     SurfaceCursorImpl* home;  ///< where it returns when its records are applied
     std::uint32_t words;      ///< used
+    bool hasPositions;
     std::uint32_t* data() { return reinterpret_cast<std::uint32_t*>(this + 1); }
 };
 
@@ -127,16 +127,15 @@ class SurfaceStore {
     /// See SurfaceRecorder::passDone.
     void divideAll(double part);
 
-    std::uint32_t shardOf(std::uint32_t face) const {
-        const std::uint32_t run = static_cast<std::uint32_t>(std::uint64_t(face) >> (pageBits_ + runBits_));
-        return (run ^ run >> 7 ^ run >> 13) & (shardCount_ - 1);
-    }
+    std::uint32_t shardOf(std::uint32_t face) const { return common_.shardOf(face); }
+    /// What cursors copy: how records are laid out and where they go.
+    const SurfaceCursorState& cursorState() const { return common_; }
     /// Mesh that a global face belongs to.
     std::uint32_t meshOf(std::uint32_t face) const;
     /// World-space area of a face of the scene; 0 if it has none or a vertex is missing or not finite.
     double area(std::uint32_t mesh, std::uint32_t face) const;
-    /// From a position to u, v in units of 2^-30; 0, 0 on a face that has no area.
-    void toBarycentrics(const SurfacePlace& place, std::uint32_t& u, std::uint32_t& v) const;
+    /// From a position to a path; that of the first vertex on a face that has no area.
+    std::uint32_t pathOf(std::uint32_t mesh, std::uint32_t face, Vec3f position) const;
 
     // For post-processing, while no thread records.
     SurfaceRef root(std::uint32_t face) const;
@@ -176,19 +175,18 @@ class SurfaceStore {
     void divideBudget();
     void applyWaiting(SurfaceShard& shard);
     void apply(SurfaceShard& shard, SurfaceBlock& block);
+    void resolvePositions(SurfaceBlock& block) const;
     void prefetchFaces(const std::uint32_t* record, std::uint32_t count) const;
-    void prefetchVertices(const std::uint32_t* record, std::uint32_t count) const;
-    std::uint32_t enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
+    void enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
     void descendAll(Lane* lanes, std::uint32_t count) const;
     void addRecord(SurfaceShard& shard, Lane& lane);
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
-    void divideBelow(SurfaceRef& ref, const SurfacePlace& place, std::uint32_t level, double inherited, double growth);
-    bool mayDivide(const SurfacePlace& place, std::uint32_t level) const;
+    void divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited, double growth);
+    bool mayDivide(std::uint32_t face, std::uint32_t level) const;
     SurfaceRef* slotOf(std::uint32_t face) const;
     SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
     SurfaceRef* binOf(std::uint32_t face);
-    void coordinates(const std::uint32_t* record, std::uint32_t& u, std::uint32_t& v) const;
     std::byte* allocate(SurfaceShard& shard, std::size_t bytes);  ///< zeros; null beyond the budget
     bool nextChunk(SurfaceShard& shard);
 
@@ -205,6 +203,7 @@ class SurfaceStore {
     std::size_t nodeBytes_ = sizeof(SurfaceNode);
     std::uint32_t recordWords_ = kPlaceWords;
 
+    SurfaceCursorState common_;
     std::uint32_t pageBits_ = 0, runBits_ = 0, shardCount_ = 0;
     std::size_t blockBytes_ = 0, chunkBytes_ = 0, chunksPerSlab_ = 1, pageBytes_ = 0;
     std::uint64_t chunkCount_ = 0;
@@ -227,26 +226,14 @@ struct SurfaceCursorImpl : SurfaceCursorState {
     explicit SurfaceCursorImpl(SurfaceStore& owner);
     ~SurfaceCursorImpl();
 
-    struct Open { std::uint32_t* next = nullptr; std::uint32_t* end = nullptr; SurfaceBlock* block = nullptr; };
-
-    /// Room for a new record, with no values yet; place and flags are for the caller to write.
-    std::uint32_t* append(std::uint32_t shard) {
-        Open& to = open[shard];
-        const std::uint32_t words = store.recordWords();
-        if (static_cast<std::size_t>(to.end - to.next) < words) [[unlikely]] replaceBlock(shard);
-        std::uint32_t* record = to.next;
-        to.next += words;
-        // Values are read only where a mask says so. The first mask holds the flags.
-        for (std::size_t i = 1; i < store.maskWords().size(); ++i) record[store.maskWords()[i]] = 0;
-        return record;
-    }
     void replaceBlock(std::uint32_t shard);
+    void closeBlock(std::uint32_t shard);  ///< and hand it over
+    std::uint32_t* appendPlace(const SurfacePlace& place, std::uint32_t shard);
     SurfaceBlock* newBlock();
-    void countInvalid() { invalid.store(invalid.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
 
     SurfaceStore& store;
-    std::vector<std::uint32_t> serialNumbers;
-    std::vector<Open> open;
+    std::vector<Open> openRecords;
+    std::vector<SurfaceBlock*> openBlocks;         ///< per shard, or null
     std::atomic<SurfaceBlock*> returned{nullptr};  ///< blocks of ours that others have applied
     SurfaceBlock* freeBlocks = nullptr;
     std::vector<SurfaceBlock*> blocks;             ///< all of ours

@@ -12,6 +12,7 @@
 #include "emca/core/mesh.h"
 #include "emca/core/result.h"
 #include "emca/core/surface_field.h"
+#include "emca/core/surface_tree.h"
 
 namespace emca {
 
@@ -21,9 +22,10 @@ struct SurfaceCursorImpl;
 
 /// A point on one of all faces of all meshes.
 struct SurfacePlace {
-    std::uint32_t face = 0;   ///< of all meshes
-    std::uint32_t mesh = 0;
-    std::uint32_t where[3]{}; ///< bits of a position; or u, v in units of 2^-30
+    std::uint32_t face = 0;        ///< of all meshes
+    std::uint32_t path = 0;        ///< surfacePath(); where only the position is known, the mesh
+    float position[3]{};
+    bool isPosition = false;
 };
 }
 
@@ -58,7 +60,6 @@ class SurfacePoint {
     std::uint32_t* record_ = nullptr;   ///< where values go while the block it is part of is still open
     std::uint32_t serial_ = 0, shard_ = 0;
     detail::SurfacePlace place_;        ///< for values that come later than that
-    std::uint32_t flags_ = 0;
 };
 
 /// Handle to a layer of a recorder, a plain value. The default one belongs to no layer and ignores what is added, so that
@@ -104,10 +105,6 @@ class SurfaceCursor {
   private:
     friend class SurfaceRecorder;
     SurfaceCursor() = default;
-    static constexpr std::uint32_t kNoFace = ~0u;
-    std::uint32_t check(std::uint32_t mesh, std::uint32_t face, bool finite) const;
-    SurfacePoint record(std::uint32_t mesh, std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                        std::uint32_t flags);
     detail::SurfaceCursorState* state_ = nullptr;
 };
 
@@ -180,22 +177,81 @@ class SurfaceRecorder {
 
 namespace detail {
 
-/// What the inline part of SurfaceLayer::add needs of a thread's cursor.
+/// std::isfinite that also answers in renderers compiled with -ffast-math.
+constexpr bool finiteBits(float f) { return (std::bit_cast<std::uint32_t>(f) & 0x7f800000u) != 0x7f800000u; }
+
+/// What the inline parts of SurfaceCursor and SurfaceLayer need of a thread's cursor.
 struct SurfaceCursorState {
-    const std::uint32_t* serials = nullptr;  ///< per shard: number of the block that is open
-    SurfaceCursorImpl* impl = nullptr;       ///< all the rest
+    /// Where the next record of a shard goes.
+    struct Open {
+        std::uint32_t* next = nullptr;
+        std::uint32_t* end = nullptr;
+        std::uint32_t serial = 1;  ///< number of the block
+    };
+    static constexpr std::uint32_t kNoFace = ~0u;
+
+    Open* open = nullptr;                      ///< per shard
+    const std::uint64_t* faceStarts = nullptr; ///< per mesh, and the end
+    std::uint32_t meshCount = 0;
+    std::uint32_t recordWords = 0, shardShift = 0, shardMask = 0;
+    const std::uint16_t* maskWords = nullptr;  ///< of a record; the first is behind the place
+    std::uint32_t maskWordCount = 0;
+    SurfaceCursorImpl* impl = nullptr;         ///< all the rest
+
+    /// The global face; kNoFace, and counted as invalid, if there is no such place. Faces beyond 2^32 - 1 do not take part.
+    std::uint32_t check(std::uint32_t mesh, std::uint32_t face, bool finite) {
+        if (mesh < meshCount && finite) [[likely]] {
+            const std::uint64_t global = faceStarts[mesh] + face;
+            if (global < faceStarts[mesh + 1] && global < kNoFace) [[likely]] return static_cast<std::uint32_t>(global);
+        }
+        countInvalid();
+        return kNoFace;
+    }
+    std::uint32_t shardOf(std::uint32_t face) const {
+        const std::uint32_t run = static_cast<std::uint32_t>(std::uint64_t(face) >> shardShift);
+        return (run ^ run >> 7 ^ run >> 13) & shardMask;
+    }
+    /// Room for `records` records, one after the other, with no values yet in the last; place and flags are for the
+    /// caller to write.
+    std::uint32_t* append(std::uint32_t shard, std::uint32_t records = 1) {
+        Open& to = open[shard];
+        const std::uint32_t words = records * recordWords;
+        if (to.end - to.next < static_cast<std::ptrdiff_t>(words)) [[unlikely]] replaceBlock(shard);
+        std::uint32_t* record = to.next;
+        to.next += words;
+        // Values are read only where a mask says so. The first mask holds the flags.
+        for (std::uint32_t i = 1; i < maskWordCount; ++i) (to.next - recordWords)[maskWords[i]] = 0;
+        return record;
+    }
+    void replaceBlock(std::uint32_t shard);
+    void countInvalid();
     /// Adds a value whose block is gone, or whose place in the record is taken, or which is not finite.
     static void addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value);
 };
 
-/// std::isfinite that also answers in renderers compiled with -ffast-math.
-constexpr bool finiteBits(float f) { return (std::bit_cast<std::uint32_t>(f) & 0x7f800000u) != 0x7f800000u; }
-
 }  // namespace detail
+
+inline SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
+    SurfacePoint at;
+    if (state_ == nullptr) return at;
+    const std::uint32_t global =
+        state_->check(mesh, face, detail::finiteBits(barycentrics.x) && detail::finiteBits(barycentrics.y));
+    if (global == detail::SurfaceCursorState::kNoFace) [[unlikely]] return at;
+    std::uint32_t u = 0, v = 0;
+    detail::toFixed(barycentrics.x, barycentrics.y, u, v);
+    at.cursor_ = state_;
+    at.shard_ = state_->shardOf(global);
+    at.record_ = state_->append(at.shard_);
+    at.serial_ = state_->open[at.shard_].serial;
+    at.place_.face = at.record_[0] = global;
+    at.place_.path = at.record_[1] = detail::surfacePath(u, v);
+    at.record_[2] = 0;
+    return at;
+}
 
 inline void SurfaceLayer::add(const SurfacePoint& at, float value) const {
     if (!recorder_ || !at.cursor_) return;
-    if (at.cursor_->serials[at.shard_] == at.serial_ && channels_ == 1 && detail::finiteBits(value) &&
+    if (at.cursor_->open[at.shard_].serial == at.serial_ && channels_ == 1 && detail::finiteBits(value) &&
         !(at.record_[maskWord_] >> bit_ & 1)) [[likely]] {
         at.record_[maskWord_] |= 1u << bit_;
         at.record_[value_] = std::bit_cast<std::uint32_t>(value);
@@ -207,7 +263,7 @@ inline void SurfaceLayer::add(const SurfacePoint& at, float value) const {
 inline void SurfaceLayer::add(const SurfacePoint& at, Color value) const {
     if (!recorder_ || !at.cursor_) return;
     if (channels_ == 1) return add(at, luminance(value));
-    if (at.cursor_->serials[at.shard_] == at.serial_ && detail::finiteBits(value.r) && detail::finiteBits(value.g) &&
+    if (at.cursor_->open[at.shard_].serial == at.serial_ && detail::finiteBits(value.r) && detail::finiteBits(value.g) &&
         detail::finiteBits(value.b) && !(at.record_[maskWord_] >> bit_ & 1)) [[likely]] {
         at.record_[maskWord_] |= 1u << bit_;
         at.record_[value_] = std::bit_cast<std::uint32_t>(value.r);
