@@ -1,6 +1,7 @@
 #include "emca/render/path_integrator.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "emca/render/bsdf.h"
 
@@ -26,7 +27,7 @@ float powerHeuristic(float pdf, float otherPdf) {
 
 }  // namespace
 
-Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& emca, SurfaceTally* surface) const {
+Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder emca, SurfaceTally* surface) const {
     Color estimate(0.f), throughput(1.f);
     float eta = 1.f;  // product of relative indices of refraction: roulette must not see radiance squeezed inside glass
     Arrival arrival{ray.origin};
@@ -78,16 +79,18 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
             break;
         }
 
+        // Chosen before light is looked for: the processor does both at once, which it cannot across a shadow ray.
+        sampler.setDimension(dimension + kLobe);
+        const float uLobe = sampler.next1D();
+        const Vec2f uDirection = sampler.next2D();
+        const auto scattered = at.bsdf->sample(at, at.wo, uLobe, uDirection);
+        emca.addIntersectionData("random number (lobe)", uLobe);
+        emca.addIntersectionData("random numbers (direction)", uDirection);
+
         sampler.setDimension(dimension + kLightChoice);
         estimate += sampledLight(at, throughput, sampler, emca, surface);
         emca.setIntersectionEstimate(estimate);
 
-        sampler.setDimension(dimension + kLobe);
-        const float uLobe = sampler.next1D();
-        const Vec2f uDirection = sampler.next2D();
-        emca.addIntersectionData("random number (lobe)", uLobe);
-        emca.addIntersectionData("random numbers (direction)", uDirection);
-        const auto scattered = at.bsdf->sample(at, at.wo, uLobe, uDirection);
         const Vec3f direction = scattered ? at.toWorld(scattered->wi) : Vec3f{};
         if (!scattered || isBlack(scattered->weight) || violatesStrictNormals(at, direction, scattered->wi)) {
             emca.setIntersectionEvent(at.emitter ? Event::emission : Event::absorb, Lobe::none, at.bsdf->name());
@@ -117,8 +120,15 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
         }
         if (surface) surface->scattered(scattered->weight / survival);
 
-        arrival = {at.position, scattered->pdf, false, scattered->isDelta()};
-        ray = {offsetOrigin(at.position, at.geometricNormal, at.positionError, direction), direction};
+        // Member by member: as whole structures they would be put together in memory, narrow stores before wide loads.
+        arrival.from = at.position;
+        arrival.pdf = scattered->pdf;
+        arrival.direct = false;
+        arrival.delta = scattered->isDelta();
+        ray.origin = offsetOrigin(at.position, at.geometricNormal, at.positionError, direction);
+        ray.direction = direction;
+        ray.minimumDistance = 0.f;
+        ray.maximumDistance = std::numeric_limits<float>::infinity();
         ++depth;
     }
     if (surface) surface->end(vertex);
@@ -128,7 +138,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder& em
 }
 
 Color PathIntegrator::emittedLight(const SurfaceInteraction& at, const Ray& ray, const Arrival& arrival,
-                                   Color throughput, emca::PathRecorder& emca, SurfaceTally* surface) const {
+                                   Color throughput, emca::PathRecorder emca, SurfaceTally* surface) const {
     if (!at.emitter || (arrival.direct && settings_.hideEmitters)) return Color(0.f);
     const Color emission = at.emitter->emitted(at, -ray.direction);
     emca.setIntersectionEmission(emission);
@@ -150,7 +160,7 @@ Color PathIntegrator::emittedLight(const SurfaceInteraction& at, const Ray& ray,
 }
 
 Color PathIntegrator::environmentLight(const Ray& ray, const Arrival& arrival, Color throughput,
-                                       emca::PathRecorder& emca, SurfaceTally* surface) const {
+                                       emca::PathRecorder emca, SurfaceTally* surface) const {
     // The viewer draws the hit outside of everything, where the ray is surely on its way out.
     emca.setIntersectionPosEnvmap([&] { return ray.at(length(ray.origin - scene_.center()) + 2.f * scene_.radius()); });
     emca.setIntersectionEvent(Event::background);
@@ -176,7 +186,7 @@ Color PathIntegrator::environmentLight(const Ray& ray, const Arrival& arrival, C
 }
 
 Color PathIntegrator::sampledLight(const SurfaceInteraction& at, Color throughput, Sampler& sampler,
-                                   emca::PathRecorder& emca, SurfaceTally* surface) const {
+                                   emca::PathRecorder emca, SurfaceTally* surface) const {
     if (at.bsdf->isDelta()) return Color(0.f);
     const float uChoice = sampler.next1D();
     const Vec2f uPoint = sampler.next2D();
@@ -199,11 +209,11 @@ Color PathIntegrator::sampledLight(const SurfaceInteraction& at, Color throughpu
     if (isBlack(bsdf.value) || violatesStrictNormals(at, light->direction, wi)) return Color(0.f);
 
     const bool combined = settings_.strategy == LightStrategy::mis && !delta;
-    if (surface) surface->misWeight(combined ? powerHeuristic(lightPdf, bsdf.pdf) : 1.f);
+    const float weight = combined ? powerHeuristic(lightPdf, bsdf.pdf) : 1.f;
+    if (surface) surface->misWeight(weight);
     const float visible = scene_.transmittance(at, *light);
     emca.setNextEventEstimationPos(light->position, visible > 0.f);
     if (visible == 0.f) return Color(0.f);
-    const float weight = combined ? powerHeuristic(lightPdf, bsdf.pdf) : 1.f;
     if (surface) surface->direct(bsdf.value * light->radiance * (visible * weight / lightPdf));
     const Color contribution = throughput * bsdf.value * light->radiance * (visible * weight / lightPdf);
     emca.addIntersectionData("MIS weight (light)", weight);

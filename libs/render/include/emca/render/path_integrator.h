@@ -18,8 +18,9 @@ class PathIntegrator {
     PathIntegrator(const Scene& scene, const IntegratorSettings& settings) : scene_(scene), settings_(settings) {}
 
     /// Radiance that arrives along the ray. The sampler's dimensions from kFirstDimension on are used.
+    /// \param emca     by value: it is a handle, and a copy stays in a register
     /// \param surface  collects 3D data of this path; null: nobody asked for any. Never changes the radiance.
-    Color radiance(Ray ray, Sampler& sampler, emca::PathRecorder& emca, SurfaceTally* surface = nullptr) const;
+    Color radiance(Ray ray, Sampler& sampler, emca::PathRecorder emca, SurfaceTally* surface = nullptr) const;
 
     /// The dimensions before this one belong to the camera.
     static constexpr std::uint32_t kFirstDimension = 2;
@@ -33,10 +34,10 @@ class PathIntegrator {
         bool delta = true;   ///< light sampling could not have made this direction
     };
     Color emittedLight(const SurfaceInteraction& at, const Ray& ray, const Arrival& arrival, Color throughput,
-                       emca::PathRecorder& emca, SurfaceTally* surface) const;
-    Color environmentLight(const Ray& ray, const Arrival& arrival, Color throughput, emca::PathRecorder& emca,
+                       emca::PathRecorder emca, SurfaceTally* surface) const;
+    Color environmentLight(const Ray& ray, const Arrival& arrival, Color throughput, emca::PathRecorder emca,
                            SurfaceTally* surface) const;
-    Color sampledLight(const SurfaceInteraction& at, Color throughput, Sampler& sampler, emca::PathRecorder& emca,
+    Color sampledLight(const SurfaceInteraction& at, Color throughput, Sampler& sampler, emca::PathRecorder emca,
                        SurfaceTally* surface) const;
     /// MIS weight of light met by BSDF sampling where light sampling has this density.
     float hitWeight(const Arrival& arrival, float lightPdf) const;

@@ -56,7 +56,9 @@ inline constexpr float squareToConcentricDiskPdf() { return kInvPi; }
 /// Direction about z with density cos(theta) / pi (Malley's method).
 inline Vec3f squareToCosineHemisphere(Vec2f u) {
     const Vec2f d = squareToConcentricDisk(u);
-    return {d.x, d.y, safeSqrt(1.f - d.x * d.x - d.y * d.y)};
+    // The larger coordinate in the square is the radius in the disk: known before d is.
+    const float radius = std::max(std::abs(2.f * u.x - 1.f), std::abs(2.f * u.y - 1.f));
+    return {d.x, d.y, safeSqrt(1.f - radius * radius)};
 }
 inline float squareToCosineHemispherePdf(float cosTheta) { return std::max(cosTheta, 0.f) * kInvPi; }
 
