@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace emca::query::detail {
@@ -105,7 +106,7 @@ class Checker {
 
     bool core(Node& node, Domain current) {
         const CoreName& found = *findCore(node.scope, node.text);
-        node.single = found.type == Type::number && found.columns[0] != '\0' && found.core != Core::depth &&
+        node.single = found.columns[0] != '\0' && found.core != Core::depth &&
                       found.core != Core::contributions && found.core != Core::splats && found.core != Core::mesh &&
                       found.core != Core::face && found.core != Core::contributionDepth && found.core != Core::nextEventDepth;
         return visible(node, current) && set(node, found.type, found.components, node.scope);
@@ -118,10 +119,8 @@ class Checker {
     }
 
     static bool comparesText(const Node& node) {
-        if (node.op != Op::equal && node.op != Op::notEqual && node.op != Op::in && node.op != Op::contains &&
-            node.op != Op::startsWith && node.op != Op::matches) {
-            return false;
-        }
+        if (node.op == Op::contains || node.op == Op::startsWith || node.op == Op::matches) return true;
+        if (node.op != Op::equal && node.op != Op::notEqual && node.op != Op::in) return false;
         return std::any_of(node.children.begin(), node.children.end(), [](const Node& c) {
             return c.kind == Kind::text || (c.kind == Kind::core && findCore(c.scope, c.text)->type == Type::text);
         });
@@ -209,7 +208,7 @@ class Checker {
                 node.type = Type::number;
                 return wants(node.children[0], Type::color, node);
             case Op::length: case Op::distance: case Op::dot: return sameVectors(node) && set(node, Type::number, 1, node.domain);
-            case Op::normalize: return sameVectors(node) && set(node, Type::vector, node.children[0].components, node.domain);
+            case Op::normalize: return sameVectors(node) && set(node, node.children[0].type, node.children[0].components, node.domain);
             case Op::cross: return sameVectors(node, 3) && set(node, Type::vector, 3, node.domain);
             case Op::makeVector:
                 node.components = static_cast<int>(node.children.size());
@@ -265,7 +264,11 @@ class Checker {
         if (std::none_of(node.children.begin(), node.children.end(), isSingle)) return true;
         for (Node& child : node.children) {
             Node* literal = child.kind == Kind::operation && child.op == Op::negate ? &child.children[0] : &child;
-            if (literal->kind == Kind::number) literal->number = static_cast<double>(static_cast<float>(literal->number));
+            if (literal->kind != Kind::number) continue;
+            // Beyond the range of float there is nothing to be rounded to: infinity and 0 are other numbers.
+            const double size = std::fabs(literal->number);
+            if (size <= static_cast<double>(std::numeric_limits<float>::max()) && size >= static_cast<double>(std::numeric_limits<float>::denorm_min()))
+                literal->number = static_cast<double>(static_cast<float>(literal->number));
         }
         return true;
     }
@@ -309,13 +312,14 @@ class Checker {
         if (!wants(node.children[0], Type::boolean, node)) return false;
         if (!same(a, b)) return fail(b, "if gives a " + typeName(a) + " or a " + typeName(b) + ": both must be of one type");
         const Node& known = a.type == Type::missing ? b : a;
+        if (known.type == Type::spectrum) return fail(known, "Spectra cannot be chosen by if: take an entry, such as [0]");
         return set(node, known.type, known.components, node.domain);
     }
 
     bool part(Node& node) {
         const Node& child = node.children[0];
         node.type = Type::number;
-        node.single = child.single || child.kind == Kind::core;
+        node.single = child.single;
         const bool letters = node.op == Op::member;
         const bool ofColor = letters && std::string_view("rgba").find(node.text) != std::string_view::npos;
         if (child.type == Type::missing) return true;

@@ -1,9 +1,9 @@
 #include "evaluator.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
 #include <set>
+
+#include "patterns.h"
 
 namespace emca::query::detail {
 
@@ -31,6 +31,16 @@ Values spread(Values values, const std::vector<Index>& owners) {
 void collectMissing(const Node& node, const PathSet& paths, std::set<std::string>& missing) {
     if (node.kind == Kind::user && columnsOfType(paths, node).empty()) missing.insert(node.text);
     for (const Node& child : node.children) collectMissing(child, paths, missing);
+}
+
+/// Sets `truth` to true for the owners of values of a column.
+void markRecorded(const Column& column, IndexRange owners, std::uint8_t* truth) {
+    if (column.dense()) {
+        if (owners.first < column.count) std::fill_n(truth, std::min(owners.last, column.count) - owners.first, std::uint8_t{kTrue});
+        return;
+    }
+    const auto begin = std::lower_bound(column.owners.begin(), column.owners.end(), owners.first);
+    for (auto owner = begin; owner != column.owners.end() && *owner < owners.last; ++owner) truth[*owner - owners.first] = kTrue;
 }
 
 }  // namespace
@@ -101,6 +111,7 @@ Values Evaluator::lightPath(const Node& node, Chunk& chunk) {
 }
 
 Values Evaluator::operation(const Node& node, Chunk& chunk) {
+    if (node.op == Op::has && node.children[0].kind == Kind::user) return recorded(node.children[0], chunk);
     const std::size_t size = chunk.size(node.domain);
     std::vector<Values> values;
     values.reserve(node.children.size());
@@ -114,48 +125,29 @@ Values Evaluator::operation(const Node& node, Chunk& chunk) {
         }
     }
     Values out;
-    if (node.op == Op::in) out = membership(node, std::move(values));
-    else if (node.op == Op::contains || node.op == Op::startsWith || node.op == Op::matches) out = textOperation(node, values);
+    if (node.op == Op::contains || node.op == Op::startsWith || node.op == Op::matches) out = textOperation(node, values, size);
     else out = combine(node, values, size);
     out.constant = node.domain == Domain::constant;
     return out;
 }
 
-/// x in (a, b): x == a or x == b.
-Values Evaluator::membership(const Node& node, std::vector<Values> values) {
+/// has(name): of whatever type.
+Values Evaluator::recorded(const Node& node, Chunk& chunk) {
+    const IndexRange owners = chunk.range(node.scope);
     Values out;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-        Node equal = node;
-        equal.op = Op::equal;
-        equal.children.clear();
-        std::vector<Values> pair;
-        pair.push_back(i + 1 < values.size() ? values[0] : std::move(values[0]));
-        pair.push_back(std::move(values[i]));
-        const std::size_t size = pair[0].constant ? pair[1].size : pair[0].size;
-        Values one = combine(equal, pair, size);
-        if (i == 1) {
-            out = std::move(one);
-            continue;
-        }
-        equal.op = Op::either;
-        std::vector<Values> both;
-        both.push_back(std::move(out));
-        both.push_back(std::move(one));
-        // Each may be one value for all; the longer one says how many there are.
-        const std::size_t all = std::max(both[0].size, both[1].size);
-        for (Values& v : both) v.constant = v.size == 1 && all != 1;
-        out = combine(equal, both, all);
-    }
+    out.type = Type::boolean;
+    out.size = owners.size();
+    out.truth = Buffer<std::uint8_t>(out.size, std::uint8_t{kFalse});
+    for (const Column* column : paths_.find(node.scope == Domain::path ? Scope::path : Scope::vertex, node.text)) markRecorded(*column, owners, out.truth.data());
     return out;
 }
 
-Values Evaluator::textOperation(const Node& node, const std::vector<Values>& values) {
+Values Evaluator::textOperation(const Node& node, const std::vector<Values>& values, std::size_t size) {
     Values out;
     out.type = Type::boolean;
     const Values &a = values[0], &b = values[1];
-    out.size = std::max(a.size, b.size);
+    out.size = size;
     if (a.type == Type::missing || b.type == Type::missing) {
-        out.size = std::max<std::size_t>(out.size, 1);
         out.truth = Buffer<std::uint8_t>(out.size, std::uint8_t{kUnknown});
         return out;
     }
@@ -163,7 +155,7 @@ Values Evaluator::textOperation(const Node& node, const std::vector<Values>& val
     std::unique_ptr<re2::RE2>* pattern = nullptr;
     if (node.op == Op::matches) {
         pattern = &patterns_[&node];
-        if (!*pattern) *pattern = std::make_unique<re2::RE2>(node.children[1].text, re2::RE2::Quiet);
+        if (!*pattern) *pattern = std::make_unique<re2::RE2>(node.children[1].text, patternOptions());
     }
     std::vector<std::uint8_t>& tested = textTests_[&node];
     const Texts& texts = allTexts();

@@ -36,8 +36,8 @@ class Evaluator {
     Values lightPath(const Node& node, Chunk& chunk);
     Values operation(const Node& node, Chunk& chunk);
     Values reduction(const Node& node, Chunk& chunk);
-    Values membership(const Node& node, std::vector<Values> values);
-    Values textOperation(const Node& node, const std::vector<Values>& values);
+    Values recorded(const Node& node, Chunk& chunk);
+    Values textOperation(const Node& node, const std::vector<Values>& values, std::size_t size);
     Values literalText(const std::string& text);
     Texts& allTexts();
     /// Of a sparse or text core column: see evaluate_core.cpp.

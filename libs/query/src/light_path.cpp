@@ -2,10 +2,10 @@
 // bidirectional ray tracing", SIGGRAPH 1990, section 3; Open Shading Language specification, "Light path expressions".
 #include "light_path.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
 #include <bitset>
+
+#include "patterns.h"
 
 namespace emca::query::detail {
 
@@ -56,6 +56,14 @@ class Translator {
 
     void skipBlanks() { while (at_ < text_.size() && text_[at_] == ' ') ++at_; }
     char next() { skipBlanks(); return at_ < text_.size() ? text_[at_] : '\0'; }
+
+    /// The character that comes next, in UTF-8.
+    std::string found() const {
+        if (at_ >= text_.size()) return "the end";
+        std::size_t end = at_ + 1;
+        while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0) == 0x80) ++end;
+        return std::string(text_.substr(at_, end - at_));
+    }
 
     bool alternatives() {
         if (++depth_ > 100) return fail("parentheses are nested too deeply");
@@ -116,7 +124,7 @@ class Translator {
         const char c = next();
         if (c == '[') return set(symbols);
         if (c == '<') return event(symbols);
-        if (!letter(c, symbols)) return fail(std::string("expected an event such as D, <RS>, [DG] or L, found ") + c);
+        if (!letter(c, symbols)) return fail("expected an event such as D, <RS>, [DG] or L, found " + found());
         ++at_;
         return true;
     }
@@ -179,7 +187,7 @@ class Translator {
     bool choice(std::string_view letters, std::uint32_t& bits, const char* what) {
         const auto one = [&](char c) {
             const std::size_t place = letters.find(c);
-            if (place == letters.npos) return fail(std::string("expected ") + what + ", found " + (c ? std::string(1, c) : "the end"));
+            if (place == letters.npos) return fail(std::string("expected ") + what + ", found " + found());
             bits |= 1u << place;
             ++at_;
             return true;
@@ -226,11 +234,17 @@ class Translator {
     void write(const Symbols& symbols) {
         static constexpr char kHex[] = "0123456789abcdef";
         pattern += symbols.none() ? "[^\\x00-\\xff" : "[";
+        const auto byte = [&](std::size_t i) { pattern += {'\\', 'x', kHex[i >> 4], kHex[i & 15]}; };
         for (std::size_t i = 0; i < symbols.size(); ++i) {
             if (!symbols.test(i)) continue;
-            pattern += "\\x";
-            pattern += kHex[i >> 4];
-            pattern += kHex[i & 15];
+            byte(i);
+            std::size_t last = i;
+            while (last + 1 < symbols.size() && symbols.test(last + 1)) ++last;
+            if (last > i) {
+                pattern += '-';
+                byte(last);
+            }
+            i = last;
         }
         pattern += ']';
     }
@@ -242,10 +256,8 @@ class Translator {
 };
 
 re2::RE2::Options options() {
-    re2::RE2::Options options;
+    re2::RE2::Options options = patternOptions();
     options.set_encoding(re2::RE2::Options::EncodingLatin1);
-    options.set_log_errors(false);
-    options.set_never_capture(true);
     return options;
 }
 
@@ -253,7 +265,13 @@ re2::RE2::Options options() {
 
 LightPathExpression::~LightPathExpression() = default;
 
+int LightPathExpression::programSize() const { return expression_->ProgramSize(); }
+
 std::shared_ptr<const LightPathExpression> LightPathExpression::parse(std::string_view text, std::uint32_t begin, QueryError& error) {
+    if (text.size() > kMaximumLength) {
+        error = {"The light path expression is longer than " + std::to_string(kMaximumLength) + " characters", {begin, begin + static_cast<std::uint32_t>(text.size()) + 2}};
+        return nullptr;
+    }
     Translator translator(text, begin, error);
     if (!translator.run()) return nullptr;
     std::shared_ptr<LightPathExpression> result(new LightPathExpression);
@@ -278,106 +296,6 @@ char LightPathExpression::symbol(Event event, Lobe lobe, std::size_t labelClass)
 
 bool LightPathExpression::matches(std::string_view path) const {
     return re2::RE2::FullMatch(re2::StringPiece(path.data(), path.size()), *expression_);
-}
-
-LightPathMatcher::LightPathMatcher(const LightPathExpression& expression, const PathSet& paths)
-    : expression_(expression), paths_(paths), hasContributions_(!paths.columns().contributions.empty()) {
-    const auto& strings = paths.columns().strings;
-    labelClasses_.resize(strings.size());
-    for (std::size_t i = 0; i < strings.size() && !expression.labels().empty(); ++i) {
-        const auto& labels = expression.labels();
-        const auto found = std::find(labels.begin(), labels.end(), strings[i]);
-        if (found != labels.end()) labelClasses_[i] = static_cast<std::uint8_t>(found - labels.begin() + 1);
-    }
-}
-
-bool LightPathMatcher::emits(Index vertex) const {
-    const auto emission = paths_.emission(vertex);
-    return emission && !isBlack(*emission);
-}
-
-char LightPathMatcher::endAt(Index vertex) const {
-    const auto& c = paths_.columns();
-    const bool background = !c.events.empty() && static_cast<Event>(c.events[vertex]) == Event::background;
-    return background || paths_.isEnvironment(vertex) ? LightPathExpression::kEnvironment : LightPathExpression::kSurface;
-}
-
-void LightPathMatcher::readWalk(Index path) {
-    const auto& c = paths_.columns();
-    const IndexRange range = paths_.vertices(path);
-    walkVertices_.clear();
-    for (Index v = range.first; v < range.last; ++v)
-        if (paths_.subpath(v) == Subpath::camera) walkVertices_.push_back(v);
-    if (walkVertices_.empty()) {  // a light path: seen from the camera it begins with its last vertex
-        for (Index v = range.last; v-- > range.first;) walkVertices_.push_back(v);
-    }
-    walk_.assign(1, LightPathExpression::kCamera);
-    std::size_t kept = 0;
-    for (const Index v : walkVertices_) {
-        const bool hasEvent = !c.events.empty() && (c.vertexFlags[v] & VertexFlag::hasEvent) != 0;
-        if (!hasEvent && c.depths[v] == 0) continue;  // the camera, or the point on the light, itself
-        walkVertices_[kept++] = v;
-        std::size_t label = 0;
-        if (hasEvent && !c.labels.empty() && c.labels[v] < labelClasses_.size()) label = labelClasses_[c.labels[v]];
-        walk_ += hasEvent ? expression_.symbol(static_cast<Event>(c.events[v]), static_cast<Lobe>(c.lobes.empty() ? 0 : c.lobes[v]), label) : '\0';
-    }
-    walkVertices_.resize(kept);
-}
-
-Truth LightPathMatcher::prefixMatches(std::size_t length, char end) {
-    std::string key(walk_, 0, length + 1);
-    if (key.find('\0') != key.npos) return kUnknown;
-    key += end;
-    constexpr std::size_t kMostRemembered = 1 << 16;
-    if (seen_.size() > kMostRemembered) seen_.clear();
-    const auto [it, isNew] = seen_.try_emplace(std::move(key), false);
-    if (isNew) it->second = expression_.matches(it->first);
-    return it->second ? kTrue : kFalse;
-}
-
-Truth LightPathMatcher::matches(Index path) {
-    readWalk(path);
-    return hasContributions_ ? contributionsMatch(path) : walkMatches();
-}
-
-Truth LightPathMatcher::contributionsMatch(Index path) {
-    Truth result = kFalse;
-    const IndexRange range = paths_.vertices(path);
-    for (Index v = range.first; v < range.last; ++v) {
-        const IndexRange contributions = paths_.contributions(v);
-        if (contributions.empty()) continue;
-        const auto place = std::find(walkVertices_.begin(), walkVertices_.end(), v);
-        const auto before = static_cast<std::size_t>(place - walkVertices_.begin());
-        for (Index i = contributions.first; i < contributions.last; ++i) {
-            const LightEnd said = paths_.contribution(i).end;
-            const bool hit = said == LightEnd::hit || (said == LightEnd::automatic && (emits(v) || paths_.isEnvironment(v)));
-            Truth one = kUnknown;  // a connection of two subpaths: what lies between is not recorded
-            if (place != walkVertices_.end()) one = hit ? prefixMatches(before, endAt(v)) : prefixMatches(before + 1, LightPathExpression::kLight);
-            if (one == kTrue) return kTrue;
-            if (one == kUnknown) result = kUnknown;
-        }
-    }
-    return result;
-}
-
-Truth LightPathMatcher::walkMatches() {
-    Truth result = kFalse;
-    const auto consider = [&](std::size_t length, char end) {
-        const Truth one = prefixMatches(length, end);
-        if (one == kTrue || (one == kUnknown && result == kFalse)) result = one;
-        return one == kTrue;
-    };
-    const auto& c = paths_.columns();
-    for (std::size_t i = 0; i < walkVertices_.size(); ++i) {
-        const Index v = walkVertices_[i];
-        const Event event = c.events.empty() ? Event::none : static_cast<Event>(c.events[v]);
-        const bool ends = event == Event::emission || event == Event::background || paths_.isEnvironment(v) || emits(v);
-        if (ends && consider(i, endAt(v))) return kTrue;
-        const IndexRange tests = paths_.nextEvents(v);
-        for (Index n = tests.first; n < tests.last; ++n)
-            if (paths_.nextEvent(n).visible && consider(i + 1, LightPathExpression::kLight)) return kTrue;
-    }
-    return result;
 }
 
 }  // namespace emca::query::detail

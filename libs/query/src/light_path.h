@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -40,9 +41,11 @@ class LightPathExpression {
     char symbol(Event event, Lobe lobe, std::size_t labelClass) const;
     /// \param path  "C" (kCamera), symbols, and one end.
     bool matches(std::string_view path) const;
+    /// Instructions that it compiles to: what it costs.
+    int programSize() const;
 
     static constexpr char kCamera = 1, kLight = 2, kSurface = 3, kEnvironment = 4;
-    static constexpr std::size_t kMaximumLabels = 15;
+    static constexpr std::size_t kMaximumLabels = 15, kMaximumLength = 4096;
 
   private:
     LightPathExpression() = default;
@@ -57,22 +60,40 @@ class LightPathMatcher {
     /// True if any contribution's way from the camera and its end match; where the set has no contributions, the walk.
     Truth matches(Index path);
 
+    /// Each contribution is a way of its own, so that a long walk costs its length squared: beyond, unknown.
+    static constexpr std::size_t kMaximumWay = 4096;
+
   private:
+    /// Ways that begin alike share their nodes; a node knows for each end whether the way to it matches.
+    struct Node { std::array<std::uint8_t, 3> matches{kUnknown, kUnknown, kUnknown}; };
+    static constexpr std::size_t kMaximumNodes = 1 << 16;
+
     Truth contributionsMatch(Index path);
     Truth walkMatches();
-    /// Of a prefix of the walk: the first `length` symbols.
-    Truth prefixMatches(std::size_t length, char end);
+    Truth wayOf(std::size_t i, bool hit);
+    Truth wayMatches(std::size_t first, std::size_t last, char end);
     void readWalk(Index path);
+    std::size_t placeOf(Index vertex) const;
+    std::uint32_t follow(std::uint32_t node, char symbol);
+    void forget();
     char endAt(Index vertex) const;
+    Event eventOf(Index vertex) const;
     bool emits(Index vertex) const;
+    bool isHit(Index vertex, LightEnd said) const;
 
     const LightPathExpression& expression_;
     const PathSet& paths_;
     std::vector<std::uint8_t> labelClasses_;  ///< per string of the set
     bool hasContributions_ = false;
-    std::string walk_;                        ///< of the path at hand: kCamera, then a symbol per vertex
-    std::vector<Index> walkVertices_;         ///< the vertex of each symbol, in the order of the walk from the camera
-    std::unordered_map<std::string, bool> seen_;
+    std::size_t at_ = 0;                      ///< in the list of contributions
+    std::string walk_;                        ///< of the path at hand: a symbol per vertex, in order from the camera
+    std::vector<Index> vertices_;             ///< the vertex of each symbol
+    bool fromLight_ = false;                  ///< a light path: no vertex is on the camera's subpath
+    std::size_t recorded_ = 0;                ///< how many symbols come before the first that was not recorded
+    std::vector<std::uint32_t> reached_;      ///< the node of each prefix of the walk that was asked for
+    std::string text_;
+    std::vector<Node> nodes_;
+    std::unordered_map<std::uint32_t, std::uint32_t> next_;  ///< node and symbol to node
 };
 
 }  // namespace emca::query::detail

@@ -1,6 +1,7 @@
 // Operations on values that belong together, element by element.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "evaluator.h"
 
@@ -17,10 +18,18 @@ void apply(Out* out, std::size_t size, const In* a, bool aConstant, const In* b,
     else for (std::size_t i = 0; i < size; ++i) out[i] = f(a[i], b[i]);
 }
 
+constexpr auto both = [](std::uint8_t a, std::uint8_t b) -> std::uint8_t {
+    return a == kFalse || b == kFalse ? kFalse : a == kTrue && b == kTrue ? kTrue : kUnknown;
+};
+constexpr auto either = [](std::uint8_t a, std::uint8_t b) -> std::uint8_t {
+    return a == kTrue || b == kTrue ? kTrue : a == kFalse && b == kFalse ? kFalse : kUnknown;
+};
+
 /// Known where all operands are.
-Buffer<std::uint8_t> allKnown(const std::vector<Values>& values, std::size_t size) {
+template <typename Operands>
+Buffer<std::uint8_t> allKnown(const Operands& operands, std::size_t size) {
     Buffer<std::uint8_t> known;
-    for (const Values& v : values) {
+    for (const Values& v : operands) {
         if (v.type == Type::missing || (v.constant && !v.isKnown(0))) return Buffer<std::uint8_t>(size, std::uint8_t{0});
         if (v.type == Type::boolean || v.known.empty() || v.constant) continue;
         if (known.empty()) known = v.known;
@@ -42,8 +51,9 @@ Values result(const Node& node, std::size_t size) {
 
 /// Where an operand is unknown, so is a condition.
 void hideUnknown(Values& out, const Buffer<std::uint8_t>& known) {
-    for (std::size_t i = 0; i < known.size(); ++i)
-        if (!known[i]) out.truth[i] = kUnknown;
+    std::uint8_t* const truth = out.truth.data();
+    const std::uint8_t* const from = known.data();
+    for (std::size_t i = 0; i < known.size(); ++i) truth[i] = from[i] ? truth[i] : std::uint8_t{kUnknown};
 }
 
 /// Component c of an operand; numbers stand for all components.
@@ -122,12 +132,17 @@ Values tested(const Node& node, std::vector<Values>& values, std::size_t size, b
     return out;
 }
 
-Values equality(const Node& node, std::vector<Values>& values, std::size_t size) {
-    Values out = result(node, size);
-    const Values &a = values[0], &b = values[1];
-    const std::uint8_t same = node.op == Op::equal ? kTrue : kFalse, other = node.op == Op::equal ? kFalse : kTrue;
+/// `a == b`, or `a != b`.
+Values equality(const Values& a, const Values& b, bool equal, std::size_t size) {
+    Values out;
+    out.type = Type::boolean;
+    out.size = size;
+    out.truth = Buffer<std::uint8_t>(size);
+    const std::uint8_t same = equal ? kTrue : kFalse, other = equal ? kFalse : kTrue;
     if (a.type == Type::boolean && b.type == Type::boolean) {
-        return logic(node, values, size, [=](std::uint8_t x, std::uint8_t y) { return x == kUnknown || y == kUnknown ? std::uint8_t{kUnknown} : x == y ? same : other; });
+        apply(out.truth.data(), size, a.truth.data(), a.constant, b.truth.data(), b.constant,
+              [=](std::uint8_t x, std::uint8_t y) { return x == kUnknown || y == kUnknown ? std::uint8_t{kUnknown} : x == y ? same : other; });
+        return out;
     }
     if (a.type == Type::text && b.type == Type::text) {
         apply(out.truth.data(), size, a.texts.data(), a.constant, b.texts.data(), b.constant,
@@ -143,7 +158,17 @@ Values equality(const Node& node, std::vector<Values>& values, std::size_t size)
                 if (x[a.constant ? 0 : i] != y[b.constant ? 0 : i]) out.truth[i] = other;
         }
     }
-    hideUnknown(out, allKnown(values, size));
+    hideUnknown(out, allKnown(std::initializer_list<std::reference_wrapper<const Values>>{a, b}, size));
+    return out;
+}
+
+/// x in (a, b): x == a or x == b.
+Values membership(const std::vector<Values>& values, std::size_t size) {
+    Values out = equality(values[0], values[1], true, size);
+    for (std::size_t k = 2; k < values.size(); ++k) {
+        const Values one = equality(values[0], values[k], true, size);
+        for (std::size_t i = 0; i < size; ++i) out.truth[i] = either(out.truth[i], one.truth[i]);
+    }
     return out;
 }
 
@@ -280,13 +305,13 @@ Values combine(const Node& node, std::vector<Values>& values, std::size_t size) 
     const bool ofConditions = node.op == Op::both || node.op == Op::either || node.op == Op::invert;
     if (ofConditions) makeConditions(values);
     const bool anyMissing = std::any_of(values.begin(), values.end(), [](const Values& v) { return v.type == Type::missing; });
-    if (anyMissing && node.op != Op::has && node.op != Op::choose) return unknownResult(node, size);
+    if (anyMissing && node.op != Op::has && node.op != Op::choose && node.op != Op::in) return unknownResult(node, size);
     const auto one = [&](double (*f)(double)) { return numbers1(node, values, size, f); };
     switch (node.op) {
         case Op::both:
-            return logic(node, values, size, [](std::uint8_t a, std::uint8_t b) -> std::uint8_t { return a == kFalse || b == kFalse ? kFalse : a == kTrue && b == kTrue ? kTrue : kUnknown; });
+            return logic(node, values, size, both);
         case Op::either:
-            return logic(node, values, size, [](std::uint8_t a, std::uint8_t b) -> std::uint8_t { return a == kTrue || b == kTrue ? kTrue : a == kFalse && b == kFalse ? kFalse : kUnknown; });
+            return logic(node, values, size, either);
         case Op::invert: {
             Values out = result(node, size);
             for (std::size_t i = 0; i < size; ++i) {
@@ -299,7 +324,8 @@ Values combine(const Node& node, std::vector<Values>& values, std::size_t size) 
         case Op::lessEqual: return comparison(node, values, size, [](double a, double b) { return a <= b; });
         case Op::greater: return comparison(node, values, size, [](double a, double b) { return a > b; });
         case Op::greaterEqual: return comparison(node, values, size, [](double a, double b) { return a >= b; });
-        case Op::equal: case Op::notEqual: return equality(node, values, size);
+        case Op::equal: case Op::notEqual: return equality(values[0], values[1], node.op == Op::equal, size);
+        case Op::in: return membership(values, size);
         case Op::negate: return numbers1(node, values, size, [](double a) { return -a; });
         case Op::add: return numbers2(node, values, size, [](double a, double b) { return a + b; });
         case Op::subtract: return numbers2(node, values, size, [](double a, double b) { return a - b; });

@@ -195,7 +195,7 @@ class Parser {
             out.kind = Kind::text;
             out.text = t.text;
         } else if (t.kind == TokenKind::quotedName) {
-            return userData(out, Domain::path);
+            return reference(out, Domain::path, t);
         } else if (t.kind == TokenKind::name && !isReserved(t)) {
             return named(out);
         } else {
@@ -413,6 +413,12 @@ bool shortEnough(std::string_view text, QueryError& error) {
 }
 
 }  // namespace
+
+bool hasMeaning(std::string_view word) {
+    static constexpr std::string_view kOthers[] = {"true", "false", "pi", "inf", "nan", "v", "c", "n", "data"};
+    return std::find(std::begin(kReserved), std::end(kReserved), word) != std::end(kReserved) ||
+           std::find(std::begin(kOthers), std::end(kOthers), word) != std::end(kOthers);
+}
 
 bool parseExpression(std::string_view text, Node& root, QueryError& error) {
     std::vector<Token> tokens;

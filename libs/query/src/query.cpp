@@ -1,34 +1,49 @@
 #include "emca/query/query.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "check.h"
 #include "evaluator.h"
+#include "patterns.h"
 #include "prepare.h"
 
 namespace emca::query {
 
 namespace detail {
 
-bool prepare(Node& node, QueryError& error) {
+namespace {
+
+/// Adds the instructions of a regular expression to those of the whole query.
+bool affordable(int size, int& total, SourceRange where, QueryError& error) {
+    total += size;
+    if (total <= kMaximumProgram) return true;
+    error = {"The light path and regular expressions are too large together: use fewer or smaller repetitions", where};
+    return false;
+}
+
+bool prepare(Node& node, int& programs, QueryError& error) {
     if (node.kind == Kind::lightPath) {
         // "lpe(" and blanks stand before the quote; the text's own place is good enough for its first character.
         node.lightPath = LightPathExpression::parse(node.text, node.where.begin + 4, error);
-        if (!node.lightPath) return false;
+        if (!node.lightPath || !affordable(node.lightPath->programSize(), programs, node.where, error)) return false;
     }
     if (node.kind == Kind::operation && node.op == Op::matches && node.children[1].kind == Kind::text) {
-        re2::RE2::Options options(re2::RE2::Quiet);
-        options.set_max_mem(1 << 20);
-        const re2::RE2 pattern(node.children[1].text, options);
+        const re2::RE2 pattern(node.children[1].text, patternOptions());
         if (!pattern.ok()) {
             error = {"The regular expression is not valid: " + pattern.error(), node.children[1].where};
             return false;
         }
+        if (!affordable(pattern.ProgramSize(), programs, node.children[1].where, error)) return false;
     }
-    return std::all_of(node.children.begin(), node.children.end(), [&](Node& child) { return prepare(child, error); });
+    return std::all_of(node.children.begin(), node.children.end(), [&](Node& child) { return prepare(child, programs, error); });
+}
+
+}  // namespace
+
+bool prepare(Node& root, QueryError& error) {
+    int programs = 0;
+    return prepare(root, programs, error);
 }
 
 bool makeTree(std::string_view text, Node& root, QueryError& error) {
@@ -39,19 +54,33 @@ bool makeTree(std::string_view text, Node& root, QueryError& error) {
 
 namespace {
 
-std::size_t depthOf(const Node& node) {
-    std::size_t deepest = 0;
-    for (const Node& child : node.children) deepest = std::max(deepest, depthOf(child));
-    return deepest + 1;
+/// Bytes of one value of a node on all elements of its domain; of operands, which are brought to their parent's domain,
+/// on that.
+std::size_t bytesOf(const Node& node, Domain domain, const Chunk& chunk) {
+    const std::size_t components = node.type == Type::text || node.type == Type::spectrum ? 1 : static_cast<std::size_t>(std::max(node.components, 1));
+    return node.type == Type::boolean ? chunk.size(domain) : chunk.size(domain) * (8 * components + 1);
+}
+
+/// The most that is needed at once to evaluate a node: earlier operands wait for later ones, then all for the result.
+std::size_t peakBytes(const Node& node, const Chunk& chunk) {
+    const Domain domain = node.kind == Kind::reduction ? node.argument : node.domain;
+    std::size_t waiting = 0, peak = 0;
+    for (const Node& child : node.children) {
+        // A value of a wider domain, and the same spread over the elements of this one.
+        const std::size_t own = child.domain == Domain::constant ? 0 : bytesOf(child, domain, chunk);
+        const std::size_t spread = child.domain == domain ? own : own + bytesOf(child, child.domain, chunk);
+        peak = std::max(peak, waiting + std::max(peakBytes(child, chunk), spread));
+        waiting += own;
+    }
+    return std::max(peak, waiting + bytesOf(node, node.domain, chunk));
 }
 
 }  // namespace
 
 std::size_t temporaryBytes(const Node& root, const Chunk& chunk) {
-    std::size_t elements = 0;
-    for (const Domain domain : {Domain::path, Domain::vertex, Domain::contribution, Domain::nextEvent}) elements = std::max(elements, chunk.size(domain));
-    // At each level of the tree at most the operands of one operation exist: three numbers and a flag per element.
-    return elements * 25 * std::min<std::size_t>(depthOf(root), 16);
+    std::size_t owners = 0;  // who belongs to whom
+    for (const Domain domain : {Domain::path, Domain::vertex, Domain::contribution, Domain::nextEvent}) owners += 2 * sizeof(Index) * chunk.size(domain);
+    return owners + peakBytes(root, chunk);
 }
 
 }  // namespace detail
@@ -60,12 +89,17 @@ namespace {
 
 using namespace detail;
 
+/// Not the first byte of a character in UTF-8.
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
 std::string excerpt(std::string_view query, SourceRange where) {
     constexpr std::size_t kLongest = 40;
     if (where.begin >= query.size() || where.end <= where.begin) return {};
-    std::string piece(query.substr(where.begin, std::min<std::size_t>(where.end - where.begin, kLongest)));
-    if (where.end - where.begin > kLongest) piece += "…";
-    return " (" + piece + ")";
+    std::size_t size = std::min<std::size_t>({where.end - where.begin, query.size() - where.begin, kLongest});
+    while (where.begin + size < query.size() && continues(query[where.begin + size])) --size;
+    std::string piece(query.substr(where.begin, size));
+    if (where.begin + size < where.end) piece += "…";
+    return piece.empty() ? piece : " (" + piece + ")";
 }
 
 /// A tree checked against the types of a set, and chunks over which it goes.
@@ -132,16 +166,17 @@ const char* name(ExpressionType type) {
 }
 
 Error toError(std::string_view query, const QueryError& error) {
-    return {ErrorCode::parseFailed, "At character " + std::to_string(error.where.begin + 1) + excerpt(query, error.where) + ": " + error.message + "."};
+    const std::string_view before = query.substr(0, std::min<std::size_t>(error.where.begin, query.size()));
+    const auto characters = std::count_if(before.begin(), before.end(), [](char c) { return !continues(c); });
+    return {ErrorCode::parseFailed, "At character " + std::to_string(characters + 1) + excerpt(query, error.where) + ": " + error.message + "."};
 }
 
 std::string pointAt(std::string_view query, SourceRange where) {
-    const auto isStart = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };  // of a UTF-8 character
     std::string line(query), mark;
     std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
     for (std::size_t i = 0; i <= line.size(); ++i) {
         const bool inside = i >= where.begin && (i < where.end || i == where.begin);
-        if (i < line.size() && !isStart(line[i])) continue;
+        if (i < line.size() && continues(line[i])) continue;
         if (i == line.size() && !inside) break;
         mark += inside ? '^' : ' ';
     }
@@ -215,7 +250,7 @@ std::string quotedText(std::string_view text) {
 
 std::string quotedName(std::string_view text) {
     static const re2::RE2 plain("[A-Za-z_][A-Za-z0-9_]*");
-    if (re2::RE2::FullMatch(re2::StringPiece(text.data(), text.size()), plain)) return std::string(text);
+    if (re2::RE2::FullMatch(re2::StringPiece(text.data(), text.size()), plain) && !hasMeaning(text)) return std::string(text);
     std::string out = "`";
     for (const char c : text) {
         if (c == '`' || c == '\\') out += '\\';

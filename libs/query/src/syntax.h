@@ -86,11 +86,13 @@ struct Node {
 
     Type type = Type::missing;
     int components = 1;              ///< of vectors and colours
-    bool single = false;             ///< a float as recorded: numbers that it is compared with are rounded to float
+    bool single = false;             ///< floats as recorded: numbers that it is compared with are rounded to float
     Domain domain = Domain::constant;
     Domain argument = Domain::path;  ///< of reductions: over what they go
 };
 
+/// True of words that stand for something else than a quantity: and, true, pi, v, …
+bool hasMeaning(std::string_view word);
 /// Parses an expression. False: `error` says why not.
 bool parseExpression(std::string_view text, Node& root, QueryError& error);
 

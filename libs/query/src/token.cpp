@@ -11,7 +11,34 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
+bool isEscaped(char c) { return c == '\\' || c == '"' || c == '\'' || c == '`'; }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+/// Bytes of the character of UTF-8 at the begin of `text`; 0 if there is none.
+std::size_t characterSize(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    const std::size_t size = first < 0x80 ? 1 : first >= 0xc2 && first < 0xe0 ? 2 : first >= 0xe0 && first < 0xf0 ? 3 : first >= 0xf0 && first < 0xf5 ? 4 : 0;
+    if (size > text.size()) return 0;
+    for (std::size_t i = 1; i < size; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    // Longer than needed, surrogates, beyond Unicode.
+    const bool wrong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) || (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90);
+    return wrong ? 0 : size;
+}
+
+/// Errors repeat pieces of the query, and go into JSON.
+bool isUtf8(std::string_view text, QueryError& error) {
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t size = text[i] == '\0' ? 0 : characterSize(text.substr(i));
+        if (size == 0) {
+            error = {"This byte is no text in UTF-8", {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i)}};
+            return false;
+        }
+        i += size;
+    }
+    return true;
+}
 
 class Tokenizer {
   public:
@@ -63,7 +90,8 @@ class Tokenizer {
         const std::size_t begin = at_++;
         std::string text;
         while (at_ < query_.size() && query_[at_] != quote) {
-            if (query_[at_] == '\\' && at_ + 1 < query_.size()) ++at_;
+            // Other backslashes stay: "\d" in a regular expression is written as everywhere.
+            if (query_[at_] == '\\' && at_ + 1 < query_.size() && isEscaped(query_[at_ + 1])) ++at_;
             text += query_[at_++];
         }
         if (at_ == query_.size()) return fail(begin, std::string(what) + " not closed: expected " + quote + " at its end");
@@ -104,7 +132,7 @@ class Tokenizer {
 }  // namespace
 
 bool tokenize(std::string_view query, std::vector<Token>& tokens, QueryError& error) {
-    return Tokenizer(query, tokens, error).run();
+    return isUtf8(query, error) && Tokenizer(query, tokens, error).run();
 }
 
 std::string describe(const Token& token) {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 
 #include "light_path.h"
@@ -19,7 +19,7 @@ class Buffer {
     Buffer(std::size_t size, T value) : Buffer(size) { std::fill_n(data_.get(), size, value); }
     Buffer(Buffer&&) noexcept = default;
     Buffer& operator=(Buffer&&) noexcept = default;
-    Buffer(const Buffer& other) : Buffer(other.size_) { std::memcpy(data_.get(), other.data_.get(), size_ * sizeof(T)); }
+    Buffer(const Buffer& other) : Buffer(other.size_) { std::copy_n(other.data_.get(), size_, data_.get()); }
     Buffer& operator=(const Buffer& other) { return *this = Buffer(other); }
 
     std::size_t size() const { return size_; }

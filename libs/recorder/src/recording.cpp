@@ -43,10 +43,8 @@ ColumnChoice::ColumnChoice(const std::vector<std::string>& names) : all(names.em
     core = 0;
     for (const std::string& name : names) {
         const auto it = std::find_if(kCoreNames.begin(), kCoreNames.end(), [&](const CoreName& c) { return c.name == name; });
-        if (it != kCoreNames.end())
-            core |= it->bit;
-        else
-            keys.push_back(name);
+        if (it != kCoreNames.end()) core |= it->bit;
+        keys.push_back(name);  // a renderer's own data may have the name of a core quantity
     }
     std::sort(keys.begin(), keys.end());
 }
