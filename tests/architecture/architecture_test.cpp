@@ -25,13 +25,13 @@ const std::map<std::string, Rule>& rules() {
         {"libs/query", {{"core", "query"}, {"re2/"}}},
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
         {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio"}}},
-        {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h"}}},
+        {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
         {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "dlfcn.h", "link.h"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
         {"libs/render", {{"core", "recorder", "imageio", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h"}}},
         {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},
-        {"apps/cli", {{"core", "client", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
-        {"apps/explorer", {{"core", "client", "analysis", "imageio"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
+        {"apps/cli", {{"core", "client", "query", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
+        {"apps/explorer", {{"core", "client", "query", "analysis", "imageio"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
         {"examples", {{"core", "recorder", "server", "client"}, {}}},
     };
     return table;

@@ -77,6 +77,11 @@ Result<void> SceneAssembler::checkWhole() {
     return {};
 }
 
+std::vector<Mesh> SceneAssembler::takeWholeMeshes() {
+    if (!checkWhole()) meshes_.pop_back();
+    return take();
+}
+
 Result<void> ImageAssembler::begin(const protocol::RenderResult& result) {
     if (begun_) return violation("an image begins twice");
     begun_ = true;

@@ -17,6 +17,8 @@ class SceneAssembler {
     bool complete() const { return complete_; }
     double fraction() const;   ///< by triangles, in [0, 1]
     std::vector<Mesh> take() { return std::move(meshes_); }
+    /// Of a scene that will not be complete: its first meshes, as far as they are.
+    std::vector<Mesh> takeWholeMeshes();
 
   private:
     Result<void> addPart(const protocol::MeshPart& part);

@@ -7,6 +7,7 @@
 
 #include "assemble.h"
 #include "assemble_surface.h"
+#include "convert.h"
 #include "link.h"
 
 namespace emca::client {
@@ -80,6 +81,8 @@ Result<Trace> trace(Link& link, protocol::TraceRequest request, const TraceOptio
     request.query = options.query;
     request.budget = options.budget;
     request.locations = options.locations;
+    request.keep = options.keep;
+    request.keepCount = options.keepCount;
     const std::vector<Pixel> asked = request.pixels;
     const std::uint64_t count = asked.empty() ? request.rect.count() : asked.size();
     const auto begin = std::chrono::steady_clock::now();
@@ -89,18 +92,8 @@ Result<Trace> trace(Link& link, protocol::TraceRequest request, const TraceOptio
         return Error{ErrorCode::protocolViolation, "The renderer answered with other pixels than those that were asked for."};
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    Trace trace;
-    trace.pixels = std::move(result->pixels);
-    trace.replays = std::move(result->replays);
-    trace.samplesPerPixel = result->settings.samplesPerPixel;
-    trace.paths = std::move(result->paths);
-    trace.stats = result->stats;
-    trace.renderSeconds = result->renderSeconds;
+    Trace trace = traceOf(std::move(result).value());
     trace.totalSeconds = seconds.count();
-    trace.renderId = result->renderId;
-    trace.seed = result->settings.seed;
-    trace.integrator = std::move(result->settings.integrator);
-    trace.sampler = std::move(result->settings.sampler);
     return trace;
 }
 
@@ -125,27 +118,7 @@ Result<ServerInfo> Connection::info() {
     const auto link = impl_->link;
     auto reply = ask<protocol::Info>(*link, protocol::InfoRequest{});
     if (!reply) return reply.error();
-    ServerInfo info;
-    info.renderer = std::move(reply->renderer);
-    info.scene = std::move(reply->scene);
-    info.integrator = std::move(reply->integrator);
-    info.sampler = std::move(reply->sampler);
-    info.width = reply->width;
-    info.height = reply->height;
-    info.samplesPerPixel = reply->samplesPerPixel;
-    info.seed = reply->seed;
-    info.triangles = reply->triangles;
-    info.meshes = reply->meshes;
-    info.maximumSamplesPerPixel = reply->maximumSamplesPerPixel;
-    info.maximumPixelsPerTrace = reply->maximumPixelsPerTrace;
-    info.capabilities = std::move(reply->capabilities);
-    info.tools = std::move(reply->tools);
-    info.latestRender = reply->latestRender;
-    for (protocol::Layer& layer : reply->layers) info.layers.push_back(std::move(layer.description));
-    info.surfaceRender = reply->surfaceRender;
-    for (protocol::Layer& layer : reply->collected) info.collected.push_back({std::move(layer.description), layer.samples, layer.total});
-    info.maximumSurfaceBudget = reply->maximumSurfaceBudget;
-    return info;
+    return infoOf(std::move(reply).value());
 }
 
 Result<Camera> Connection::camera() {

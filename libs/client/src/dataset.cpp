@@ -50,6 +50,12 @@ void Dataset::setCurrentImage(std::size_t index) {
     changed(DatasetPart::currentImage);
 }
 
+void Dataset::setImages(std::vector<ImageEntry> images, std::size_t current) {
+    images_ = std::move(images);
+    currentImage_ = images_.empty() ? 0 : std::min(current, images_.size() - 1);
+    changed(DatasetPart::images | DatasetPart::currentImage);
+}
+
 void Dataset::pixelsChanged() { changed(DatasetPart::pixels); }
 
 void Dataset::addTrace(std::shared_ptr<const Trace> trace) {
@@ -60,6 +66,15 @@ void Dataset::addTrace(std::shared_ptr<const Trace> trace) {
     const Transaction once(*this);
     changed(DatasetPart::traces);
     setCurrent({std::move(trace)});
+}
+
+void Dataset::setTraces(std::vector<std::shared_ptr<const Trace>> traces) {
+    std::erase(traces, nullptr);
+    traces_ = std::move(traces);
+    if (traces_.size() > kHistory) traces_.resize(kHistory);
+    const Transaction once(*this);
+    changed(DatasetPart::traces);
+    setCurrent({});
 }
 
 void Dataset::setCurrent(std::vector<std::shared_ptr<const Trace>> traces) {

@@ -73,7 +73,7 @@ Result<void> ReplacedFile::check(const fs::path& file, std::string noun) {
 }
 
 Result<void> ReplacedFile::commit() {
-    stream_.close();
+    if (stream_.is_open()) stream_.close();  // whoever wrote by name may have closed it
     if (!stream_) return unwritable("not all of it could be written, the disk may be full");
     std::error_code code;
     if (fs::exists(old_)) fs::permissions(temporary_, old_.permissions(), code);

@@ -63,9 +63,13 @@ class Dataset {
     std::size_t addImage(ImageEntry image);                   ///< becomes current; returns its index
     void replaceImage(std::size_t index, ImageEntry image);
     void setCurrentImage(std::size_t index);
+    /// Replaces all images. \param current  the last one if there is none of that index
+    void setImages(std::vector<ImageEntry> images, std::size_t current);
     /// The pixels of the current preview changed.
     void pixelsChanged();
     void addTrace(std::shared_ptr<const Trace> trace);        ///< becomes the only current one
+    /// Replaces the history, newest first; none is current. Null ones are left out.
+    void setTraces(std::vector<std::shared_ptr<const Trace>> traces);
     /// Duplicates count once. Where two hold the same path, that of the later one is shown.
     void setCurrent(std::vector<std::shared_ptr<const Trace>> traces);
     /// Forgets scene, surface layers and traces, keeps info and images: another renderer was connected. The images lose their render
