@@ -4,10 +4,27 @@
 
 #include "emca/analysis/format.h"
 #include "emca/analysis/statistics.h"
+#include "generalized_esd.h"
 
 namespace emca::analysis {
 
+namespace {
+
+Result<void> checkEsd(const OutlierOptions& options) {
+    if (options.maximum < 1)
+        return Error{ErrorCode::invalidArgument, "The test is to look for at most 0 outliers; it must be 1 or more."};
+    if (options.significance > 0 && options.significance < 1) return {};
+    return Error{ErrorCode::invalidArgument,
+                 "The significance of the test for outliers is " + formatNumber(options.significance) + "; it must be between 0 and 1, as 0.05 is."};
+}
+
+}  // namespace
+
 Result<OutlierReport> detectOutliers(std::span<const double> values, const OutlierOptions& options) {
+    if (options.method == OutlierMethod::generalizedEsd) {
+        if (const Result<void> valid = checkEsd(options); !valid) return valid.error();
+        return generalizedEsd(values, options);
+    }
     if (!(options.deviations > 0) || !std::isfinite(options.deviations))
         return Error{ErrorCode::invalidArgument,
                      "The number of standard deviations beyond which a path is an outlier is " +
@@ -36,6 +53,7 @@ Result<OutlierReport> detectOutliers(const PathSet& paths, const OutlierOptions&
     if (!report) return report;
     report->withoutValue = paths.pathCount() - series.size();
     for (Index& i : report->outliers) i = series.paths[i];
+    for (EsdStep& step : report->steps) step.index = series.paths[step.index];
     return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,13 +14,29 @@ namespace emca::analysis {
 /// How outliers are told from the rest. The numbers are stable (settings, scripts).
 enum class OutlierMethod : std::uint8_t {
     meanDeviation = 0,  ///< beyond mean +- deviations * (unbiased) standard deviation
+    /// Generalized extreme studentized deviate test: how many of at most `maximum` are outliers, if the rest is normal.
+    /// Outliers do not hide each other, as they do where they widen the deviation that they are measured by.
+    /// Source: B. Rosner, "Percentage Points for a Generalized ESD Many-Outlier Procedure", Technometrics 25(2), 1983.
+    generalizedEsd = 1,
 };
 
 struct OutlierOptions {
     OutlierMethod method = OutlierMethod::meanDeviation;
     PathQuantity quantity = PathQuantity::luminance;
     double deviations = 3;    ///< m of mean +- m * sigma; positive and finite
-    bool upperOnly = false;   ///< ignore values below
+    bool upperOnly = false;   ///< ignore values below; generalizedEsd: the one-sided test
+    std::size_t maximum = 10;    ///< generalizedEsd: r, at least 1; never more than the smaller half of the values
+    double significance = 0.05;  ///< generalizedEsd: alpha, the chance to find any where there is none; in (0, 1)
+};
+
+/// Step i of the generalized ESD test (counted from 1): the value farthest from the mean of those that are left.
+struct EsdStep {
+    Index index = 0;          ///< position, as in OutlierReport::outliers
+    double value = 0;
+    double mean = 0, deviation = 0;   ///< of the values that were left, this one included
+    double statistic = 0;     ///< R_i = |value - mean| / deviation
+    double critical = 0;      ///< lambda_i
+    bool significant() const { return statistic > critical; }
 };
 
 struct OutlierReport {
@@ -27,12 +44,17 @@ struct OutlierReport {
     std::size_t considered = 0;   ///< finite values that entered mean and deviation
     std::size_t notFinite = 0;    ///< NaN and infinite: always among the outliers, never in mean and deviation
     std::size_t withoutValue = 0; ///< paths that have no final estimate: never outliers
-    double mean = 0, deviation = 0;
-    double lower = 0, upper = 0;  ///< limits; values on them are no outliers
+    double mean = 0, deviation = 0;  ///< meanDeviation: of all finite values; generalizedEsd: of those that are no outliers
+    double lower = 0, upper = 0;  ///< limits; values on them are no outliers. generalizedEsd: the extremes of the others,
+                                  ///< so that values equal to a limit may be outliers if not all of them were tested
+    std::vector<EsdStep> steps;   ///< generalizedEsd: in the order of removal, outliers or not; at most `maximum`
+    /// generalizedEsd: every value that was tested is an outlier, so that there may be more of them.
+    bool maximumReached() const { return !steps.empty() && outliers.size() - notFinite == steps.size(); }
 };
 
-/// Paths whose quantity stands out. With fewer than two finite values only NaN and infinite ones are outliers.
-/// Errors: invalidArgument (deviations).
+/// Paths whose quantity stands out. With fewer than two finite values only NaN and infinite ones are outliers; for
+/// generalizedEsd these are fewer than three. Takes O(n + r log r) for n values and r = `maximum`.
+/// Errors: invalidArgument (deviations; maximum, significance).
 Result<OutlierReport> detectOutliers(const PathSet& paths, const OutlierOptions& options = {});
 /// The same on any values; `quantity` is not read.
 Result<OutlierReport> detectOutliers(std::span<const double> values, const OutlierOptions& options = {});
