@@ -1,6 +1,7 @@
 #pragma once
 
-// What the snippets of the documentation take for granted: a renderer around them.
+// What the snippets of the documentation take for granted: a renderer around them, or the models of a viewer.
+#include "emca/client/session.h"
 #include "emca/core/seed_map.h"
 #include "emca/recorder/handles.h"
 #include "emca/recorder/recorder.h"
@@ -24,6 +25,10 @@ inline bool visible = true;
 inline int sample = 0, bounce = 0, maxBounces = 8;
 inline std::uint64_t masterSeed = 0;
 inline void fail(const std::string&) {}
+namespace client = emca::client;
+inline client::Dataset dataset;
+inline client::Selection selection;
+inline void say(const std::string&) {}
 
 class MyRenderer : public emca::Renderer {
   public:
