@@ -23,6 +23,7 @@ const char* plural(Domain domain) {
 std::string typeName(const Node& node) {
     std::string text = name(node.type);
     if (node.type == Type::vector) text += " of " + std::to_string(node.components);
+    if (node.type == Type::color && node.components == 4) text += " with opacity";
     return text;
 }
 

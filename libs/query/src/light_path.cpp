@@ -39,7 +39,7 @@ class Translator {
     bool fail(std::string message) {
         // The expression stands in quotes; escapes inside it would shift this a little.
         const auto place = static_cast<std::uint32_t>(begin_ + 1 + std::min(at_, text_.size()));
-        error_ = {"In the light path expression: " + std::move(message), {place, place + 1}};
+        error_ = {"In the light path expression: " + std::move(message), {place, place + (at_ < text_.size() ? static_cast<std::uint32_t>(found().size()) : 1)}};
         return false;
     }
 

@@ -223,6 +223,8 @@ class Parser {
             return property(out, domain, t.where);
         }
         if (t.text == "v" || t.text == "c" || t.text == "n") {
+            advance();
+            if (token().kind != TokenKind::end && !token().is(".")) return failAt(t.where, "Expected a name after " + t.text + ", such as " + t.text + ".depth");
             return fail("Expected a name after " + t.text + ", such as " + t.text + ".depth");
         }
         if (t.text == "data" && token(1).is("[")) {
