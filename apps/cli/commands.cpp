@@ -1,14 +1,12 @@
 #include "commands.h"
 
-#include <array>
-
 #include "command.h"
 
 namespace emca::cli {
 
 std::span<const AddCommand> commands() {
-    static constexpr std::array<AddCommand, 4> kCommands{addInfoCommand, addRenderCommand, addPixelCommand,
-                                                         addLayersCommand};
+    static constexpr AddCommand kCommands[] = {addInfoCommand, addRenderCommand, addPixelCommand, addScanCommand,
+                                               addAssertCommand, addLayersCommand};
     return kCommands;
 }
 

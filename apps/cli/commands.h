@@ -8,6 +8,8 @@ namespace emca::cli {
 void addInfoCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addPixelCommand(CLI::App& app, Run& run);
+void addScanCommand(CLI::App& app, Run& run);
+void addAssertCommand(CLI::App& app, Run& run);
 void addLayersCommand(CLI::App& app, Run& run);
 
 }  // namespace emca::cli

@@ -141,7 +141,11 @@ std::string pixelReport(const client::Trace& trace, const std::string& scene, st
     for (const std::string& setting : {trace.integrator, trace.sampler})
         if (!setting.empty()) text += ", " + printable(setting);
     text += fmt::format(", seed {}\n{}\n{}\n", trace.seed, verdictLine(trace.replays.at(0)), remarks(trace));
-    if (paths.empty()) return text + "The renderer recorded no paths for this pixel.\n";
+    if (trace.matches)
+        text += fmt::format("{} of {} paths match\n", trace.matches->matched, trace.matches->paths);
+    if (trace.matches && trace.matches->unknown > 0)
+        text += fmt::format("for {} paths it is unknown, as something was not recorded\n", trace.matches->unknown);
+    if (paths.empty()) return trace.matches ? text : text + "The renderer recorded no paths for this pixel.\n";
 
     analysis::OutlierOptions options;
     options.deviations = kDeviations;

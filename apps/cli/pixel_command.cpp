@@ -5,17 +5,16 @@
 
 #include "commands.h"
 #include "emca/imageio/imageio.h"
-#include "interrupt.h"
 #include "path_json.h"
 #include "path_table.h"
-#include "progress_bar.h"
 #include "settings_options.h"
+#include "traced.h"
 
 namespace emca::cli {
 namespace {
 
 struct PixelArguments {
-    std::string address, x, y, against, limit = "32";
+    std::string address, x, y, against, where, limit = "32";
     SettingsArguments settings;
     bool json = false;
 };
@@ -32,23 +31,6 @@ Result<Color> colorIn(const std::string& file, const client::ServerInfo& info, P
     return image->color(pixel);
 }
 
-Result<void> checkInside(Pixel pixel, const client::ServerInfo& info) {
-    if (pixel.x < info.width && pixel.y < info.height) return {};
-    return Error{
-        ErrorCode::pixelOutOfRange,
-        fmt::format("Pixel ({}, {}) is outside the image of {} x {} pixels; X goes from 0 to {}, Y from 0 to {}.",
-                    pixel.x, pixel.y, info.width, info.height, info.width - 1, info.height - 1)};
-}
-
-Result<client::Trace> traceWithProgress(client::Connection& connection, Pixel pixel,
-                                        const client::TraceOptions& options, const InterruptGuard& interrupt) {
-    ProgressBar bar("tracing");
-    client::RequestObserver observer;
-    observer.progress = [&bar](double fraction) { bar.update(fraction); };
-    observer.cancel = interrupt.flag();
-    return connection.tracePixel(pixel, options, observer);
-}
-
 int runPixel(const PixelArguments& arguments) {
     const Result<Pixel> pixel = parsePixel(arguments.x, arguments.y);
     if (!pixel) return failUsage(pixel.error().message);
@@ -56,6 +38,8 @@ int runPixel(const PixelArguments& arguments) {
     if (!settings) return failUsage(settings.error().message);
     const Result<std::uint64_t> limit = parseWhole("--limit", arguments.limit, 0, 1u << 30);
     if (!limit) return failUsage(limit.error().message);
+
+    if (!arguments.where.empty() && !parseQuery(arguments.where)) return Exit::usage;
 
     const auto connection = connect(arguments.address);
     if (!connection) return fail(connection.error());
@@ -65,6 +49,7 @@ int runPixel(const PixelArguments& arguments) {
 
     client::TraceOptions options;
     apply(*settings, options);
+    options.query = arguments.where;
     if (!arguments.against.empty()) {
         const Result<Color> color = colorIn(arguments.against, *info, *pixel);
         if (!color) return fail(color.error());
@@ -72,13 +57,16 @@ int runPixel(const PixelArguments& arguments) {
         options.colors = {*color};
     }
     const InterruptGuard interrupt;
-    const Result<client::Trace> trace = traceWithProgress(**connection, *pixel, options, interrupt);
+    const Result<client::Trace> trace = traceWithProgress(**connection, "tracing", {{*pixel}, {}}, options, interrupt);
     if (interrupt.interrupted()) {
         fmt::print(stderr, "interrupted: the trace was cancelled\n");
         return Exit::interrupted;
     }
     if (!trace) return fail(trace.error());
-    fmt::print("{}", arguments.json ? dump(pixelJson(*trace)) : pixelReport(*trace, info->scene, *limit));
+    Json json = pixelJson(*trace);
+    if (trace->matches) json["where"] = matchesJson(arguments.where, *trace->matches);
+    fmt::print("{}", arguments.json ? dump(json) : pixelReport(*trace, info->scene, *limit));
+    if (trace->matches) warnAboutMatches(*trace->matches, options.keep);
     return Exit::ok;
 }
 
@@ -93,12 +81,15 @@ void addPixelCommand(CLI::App& app, Run& run) {
     addSettingsOptions(*command, arguments->settings);
     command->add_option("--against", arguments->against, "compare with this image instead of the renderer's latest")
         ->type_name("IMAGE");
+    command->add_option("--where", arguments->where, "only paths for which a condition is true (docs/queries.md)")
+        ->type_name("QUERY");
     command->add_option("--limit", arguments->limit, "show at most so many paths, the brightest (default 32, 0: all)")
         ->type_name("N");
     command->add_flag("--json", arguments->json, "everything that was recorded, for scripts");
     command->footer(
         "Examples:\n  emca pixel localhost:50013 117 64\n"
-        "  emca pixel localhost:50013 117 64 --json | jq '.paths | max_by(.estimate[0])'");
+        "  emca pixel localhost:50013 117 64 --json | jq '.paths | max_by(.estimate[0])'\n"
+        "  emca pixel localhost:50013 117 64 --where 'any(v.lobe == \"specular\") and luminance > 10'");
     command->callback([arguments, &run] { run = [arguments] { return runPixel(*arguments); }; });
 }
 
