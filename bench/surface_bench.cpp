@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "emca/recorder/surface_recorder.h"
+#include "surface_for_tests.h"
 
 namespace {
 
@@ -23,18 +24,8 @@ using namespace emca;
 
 /// A bumpy square of side x side x 2 triangles.
 Mesh terrain(std::uint32_t side) {
-    Mesh mesh;
-    for (std::uint32_t y = 0; y <= side; ++y)
-        for (std::uint32_t x = 0; x <= side; ++x) {
-            const float u = float(x) / float(side), v = float(y) / float(side);
-            mesh.positions.push_back({u, v, 0.05f * std::sin(20 * u) * std::cos(17 * v)});
-        }
-    for (std::uint32_t y = 0; y < side; ++y)
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const std::uint32_t i = y * (side + 1) + x;
-            mesh.triangles.push_back({i, i + 1, i + side + 2});
-            mesh.triangles.push_back({i, i + side + 2, i + side + 1});
-        }
+    Mesh mesh = test::grid(side);
+    for (Vec3f& p : mesh.positions) p.z = 0.05f * std::sin(20 * p.x) * std::cos(17 * p.y);
     return mesh;
 }
 
