@@ -33,18 +33,9 @@ Mesh randomTriangles(unsigned seed, std::size_t count) {
 
 SurfaceField collect(const std::vector<Mesh>& meshes, int samples, unsigned seed, SurfaceOptions options,
                      const std::function<float(Vec3f)>& value) {
-    SurfaceRecorder recorder(meshes, options);
-    const SurfaceLayer density = *recorder.addLayer({"density", LayerKind::density, "", ""});
-    const SurfaceLayer mean = *recorder.addLayer({"mean", LayerKind::mean, "", ""});
-    UniformPoints points(meshes[0], seed);
-    SurfaceCursor& surface = recorder.cursor();
-    for (int i = 0; i < samples; ++i) {
-        const UniformPoint p = points.next();
-        const SurfacePoint at = surface.locate(0, p.face, p.uv);
-        density.add(at);
-        mean.add(at, value(position(meshes[0], p.face, p.uv)));
-    }
-    return recorder.finish();
+    Collection c(meshes, options);
+    c.record(samples, seed, value);
+    return c.recorder.finish();
 }
 
 /// A fine mesh with its refined faces.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "emca/core/mesh.h"
@@ -59,6 +60,30 @@ inline Vec3f position(const Mesh& mesh, std::uint32_t face, Vec2f uv) {
     const Triangle t = mesh.triangles[face];
     return mesh.positions[t[0]] * (1 - uv.x - uv.y) + mesh.positions[t[1]] * uv.x + mesh.positions[t[2]] * uv.y;
 }
+
+/// A recorder with one density layer and a mean, and what it was given.
+struct Collection {
+    std::vector<Mesh> meshes;
+    SurfaceRecorder recorder;
+    SurfaceLayer density, mean;
+
+    explicit Collection(std::vector<Mesh> scene, SurfaceOptions options = {})
+        : meshes(std::move(scene)), recorder(meshes, options),
+          density(*recorder.addLayer({"density", LayerKind::density, "1/m^2", ""})),
+          mean(*recorder.addLayer({"mean", LayerKind::mean, "", ""})) {}
+
+    /// Uniform points on mesh 0; `value` of their position goes to the mean.
+    void record(int count, unsigned seed, const std::function<float(Vec3f)>& value = [](Vec3f p) { return p.x; }) {
+        UniformPoints points(meshes[0], seed);
+        SurfaceCursor& surface = recorder.cursor();
+        for (int i = 0; i < count; ++i) {
+            const UniformPoint p = points.next();
+            const SurfacePoint at = surface.locate(0, p.face, p.uv);
+            density.add(at);
+            mean.add(at, value(position(meshes[0], p.face, p.uv)));
+        }
+    }
+};
 
 inline void inThreads(int count, const std::function<void(int)>& work) {
     std::vector<std::thread> threads;

@@ -19,29 +19,6 @@ using namespace test;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A recorder with one density layer and a mean, and what it was given.
-struct Collection {
-    std::vector<Mesh> meshes;
-    SurfaceRecorder recorder;
-    SurfaceLayer density, mean;
-
-    explicit Collection(std::vector<Mesh> scene, SurfaceOptions options = {})
-        : meshes(std::move(scene)), recorder(meshes, options),
-          density(*recorder.addLayer({"density", LayerKind::density, "1/m^2", ""})),
-          mean(*recorder.addLayer({"mean", LayerKind::mean, "", ""})) {}
-
-    void record(int count, unsigned seed) {
-        UniformPoints points(meshes[0], seed);
-        SurfaceCursor& surface = recorder.cursor();
-        for (int i = 0; i < count; ++i) {
-            const UniformPoint p = points.next();
-            const SurfacePoint at = surface.locate(0, p.face, p.uv);
-            density.add(at);
-            mean.add(at, position(meshes[0], p.face, p.uv).x);
-        }
-    }
-};
-
 /// All that must be true of `count` samples on mesh 0.
 void expectAll(Collection& c, std::uint64_t count) {
     const SurfaceField field = c.recorder.finish();
