@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "emca/analysis/flip.h"
 
 namespace emca::analysis {
 namespace {
@@ -12,7 +15,9 @@ constexpr std::array<std::string_view, kImageMetricCount> kNames = {"error",
                                                                     "squared error",
                                                                     "relative absolute error",
                                                                     "relative squared error",
-                                                                    "symmetric absolute error"};
+                                                                    "symmetric absolute error",
+                                                                    "LDR-FLIP",
+                                                                    "HDR-FLIP"};
 
 PixelRect clipped(const Image& image, PixelRect rect) {
     if (rect.empty()) return {0, 0, image.width(), image.height()};
@@ -56,11 +61,19 @@ double apply(ImageMetric metric, double image, double reference) {
             return d * d / (reference * reference + 0.01);
         case ImageMetric::symmetricAbsoluteError:
             return 2 * std::abs(d) / (std::abs(image) + std::abs(reference) + 0.02);
+        case ImageMetric::ldrFlip:
+        case ImageMetric::hdrFlip:
+            break;
     }
-    return d;
+    return std::numeric_limits<double>::quiet_NaN();
 }
 
 Result<Image> differenceImage(const Image& image, const Image& reference, ImageMetric metric) {
+    if (!isPerChannel(metric)) {
+        auto result = flip(image, reference, {.range = metric == ImageMetric::ldrFlip ? FlipRange::low : FlipRange::high});
+        if (!result) return result.error();
+        return std::move(result->error);
+    }
     if (image.width() != reference.width() || image.height() != reference.height())
         return Error{ErrorCode::invalidArgument,
                      "The image has " + std::to_string(image.width()) + " x " + std::to_string(image.height()) +

@@ -28,7 +28,7 @@ TEST(ImageMetric, KnownValues) {
     for (std::size_t m = 0; m < kImageMetricCount; ++m) {
         const auto metric = static_cast<ImageMetric>(m);
         EXPECT_EQ(imageMetricByName(name(metric)), metric);
-        EXPECT_EQ(apply(metric, 0, 0), 0);
+        EXPECT_TRUE(!isPerChannel(metric) || apply(metric, 0, 0) == 0);
     }
     EXPECT_FALSE(imageMetricByName("psnr"));
 }
@@ -55,12 +55,25 @@ TEST(DifferenceImage, GreyAgainstColorComparesLuminance) {
     EXPECT_NEAR(d->data()[0], 0.75f, 1e-6f);
 }
 
+TEST(DifferenceImage, HasOneChannelOfFlip) {
+    const Image white = filled(4, 4, {1, 1, 1}), black = filled(4, 4, {0, 0, 0});
+    for (const ImageMetric metric : {ImageMetric::ldrFlip, ImageMetric::hdrFlip}) {
+        const Result<Image> d = differenceImage(black, white, metric);
+        ASSERT_TRUE(d.ok());
+        EXPECT_EQ(d->channels(), std::vector<std::string>{"FLIP"});
+        EXPECT_GT(meanOf(*d), 0.9);
+    }
+    EXPECT_NE(meanOf(*differenceImage(black, white, ImageMetric::ldrFlip)), meanOf(*differenceImage(black, white, ImageMetric::hdrFlip)));
+}
+
 TEST(DifferenceImage, SizesMustAgree) {
-    const Result<Image> d = differenceImage(Image(3, 4), Image(4, 3));
-    ASSERT_FALSE(d.ok());
-    EXPECT_EQ(d.error().code, ErrorCode::invalidArgument);
-    EXPECT_NE(d.error().message.find("3 x 4"), std::string::npos);
-    EXPECT_NE(d.error().message.find("4 x 3"), std::string::npos);
+    for (std::size_t m = 0; m < kImageMetricCount; ++m) {
+        const Result<Image> d = differenceImage(Image(3, 4), Image(4, 3), static_cast<ImageMetric>(m));
+        ASSERT_FALSE(d.ok());
+        EXPECT_EQ(d.error().code, ErrorCode::invalidArgument);
+        EXPECT_NE(d.error().message.find("3 x 4"), std::string::npos);
+        EXPECT_NE(d.error().message.find("4 x 3"), std::string::npos);
+    }
 }
 
 TEST(ImageStatistics, CountsFaultsPerChannelAndRegion) {

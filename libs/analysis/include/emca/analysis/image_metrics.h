@@ -14,8 +14,9 @@
 
 namespace emca::analysis {
 
-/// How an image differs from a reference, per pixel and channel. d = image - reference. The small constants keep dark
-/// pixels from dominating and are those of tev, so that numbers can be compared.
+/// How an image differs from a reference. d = image - reference, per pixel and channel. The small constants keep dark
+/// pixels from dominating and are those of tev, so that numbers can be compared. FLIP is one number per pixel that depends
+/// on its surroundings, see flip.h.
 enum class ImageMetric : std::uint8_t {
     error = 0,             ///< d, signed
     absoluteError = 1,     ///< |d|
@@ -23,15 +24,20 @@ enum class ImageMetric : std::uint8_t {
     relativeAbsoluteError = 3,  ///< |d| / (|reference| + 0.01)
     relativeSquaredError = 4,   ///< d^2 / (reference^2 + 0.01)
     symmetricAbsoluteError = 5, ///< SMAPE: 2 |d| / (|image| + |reference| + 0.02)
+    ldrFlip = 6,                ///< of what a screen shows at exposure 0: in [0, 1]
+    hdrFlip = 7,                ///< the largest over the exposures that the reference has: in [0, 1]
 };
-inline constexpr std::size_t kImageMetricCount = 6;
+inline constexpr std::size_t kImageMetricCount = 8;
+/// True if a value of a channel differs by itself, so that apply() answers for it.
+constexpr bool isPerChannel(ImageMetric metric) { return metric < ImageMetric::ldrFlip; }
 std::string_view name(ImageMetric metric);  ///< "error", "absolute error", …
 std::optional<ImageMetric> imageMetricByName(std::string_view name);
 
+/// Of metrics that are per channel; of others NaN.
 double apply(ImageMetric metric, double image, double reference);
 
-/// The metric of the first three channels (one, if either image is grey) as an image with channels R, G, B (or Y).
-/// Where both have the same infinity or both are NaN the difference is 0.
+/// The metric of the first three channels (one, if either image is grey) as an image with channels R, G, B (or Y; or FLIP,
+/// with its default screen). Where both have the same infinity or both are NaN the difference is 0.
 /// Errors: invalidArgument (sizes differ; the sentence names both).
 Result<Image> differenceImage(const Image& image, const Image& reference, ImageMetric metric = ImageMetric::error);
 
