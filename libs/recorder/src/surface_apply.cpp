@@ -20,6 +20,7 @@ struct SurfaceStore::Lane {
 namespace {
 
 constexpr std::uint32_t kLanes = 16;  // more than the machine's outstanding misses gains nothing
+constexpr std::uint32_t kPositions = 64;  // but each step on one of these is short: as long as a miss all together
 
 inline void prefetchForWriting(const void* address) { __builtin_prefetch(address, 1, 3); }
 
@@ -85,8 +86,9 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
     Lane lanes[2][kLanes];
     std::uint32_t pending = 0;
     prefetchFaces(record, ahead(0, 0));
+    prefetchFaces(record + groupWords, ahead(1, 0));
     for (std::uint32_t done = 0, turn = 0; done < count; done += kLanes, record += groupWords, turn ^= 1) {
-        prefetchFaces(record + groupWords, ahead(1, done));
+        prefetchFaces(record + 2 * groupWords, ahead(2, done));
         const std::uint32_t used = ahead(0, done);
         enter(shard, record, used, lanes[turn]);
         descendAll(lanes[turn], used);
@@ -99,38 +101,40 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
 
 /// From positions to paths, in three steps: what is prefetched in one is there in the next. Only points are left.
 void SurfaceStore::resolvePositions(SurfaceBlock& block) const {
-    constexpr std::uint32_t kAhead = 12;
-    const std::uint32_t count = block.words / recordWords_;
-    const auto positionOf = [&](std::uint32_t i) -> const std::uint32_t* {  // or null
-        const std::uint32_t* record = block.data() + std::size_t(i) * recordWords_;
-        return i < count && record[0] == kNoFace ? record : nullptr;
-    };
-    const auto triangleOf = [&](const std::uint32_t* position) -> const Triangle& {
-        const std::uint32_t *place = position + recordWords_, mesh = place[1];
-        return meshes_[mesh].triangles[place[0] - faceStarts_[mesh]];
-    };
+    struct Pending {
+        std::uint32_t* record;
+        const SurfaceMeshView* mesh;
+        const Triangle* triangle;
+    } pending[kPositions];
     keepPrefetches();
-    std::uint32_t* end = block.data();
-    for (std::uint32_t i = 0; i < count + 2 * kAhead; ++i) {
-        if (const std::uint32_t* position = positionOf(i)) __builtin_prefetch(&triangleOf(position));
-        if (const std::uint32_t* position = i < kAhead ? nullptr : positionOf(i - kAhead)) {
-            const auto first = reinterpret_cast<std::uintptr_t>(meshes_[position[recordWords_ + 1]].positions.data());
+    std::uint32_t *record = block.data(), *end = record + block.words;
+    while (record < end) {
+        std::uint32_t count = 0;
+        for (; record < end && count < kPositions; record += recordWords_) {
+            if (record[0] != kNoFace) continue;
+            const std::uint32_t *place = record + recordWords_, mesh = place[1];
+            pending[count] = {record, &meshes_[mesh], &meshes_[mesh].triangles[place[0] - faceStarts_[mesh]]};
+            __builtin_prefetch(pending[count++].triangle);
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto first = reinterpret_cast<std::uintptr_t>(pending[i].mesh->positions.data());
             // Only a hint: an index beyond the vertices does no harm here.
-            for (const std::uint32_t vertex : triangleOf(position))
+            for (const std::uint32_t vertex : *pending[i].triangle)
                 __builtin_prefetch(reinterpret_cast<const void*>(first + vertex * sizeof(Vec3f)));
         }
-        if (i < 2 * kAhead) continue;
-        std::uint32_t* record = block.data() + std::size_t(i - 2 * kAhead) * recordWords_;
-        if (record[0] == kNoFace) {
-            std::uint32_t* place = record + recordWords_;
-            place[1] = pathOf(place[1], place[0],
-                              {std::bit_cast<float>(record[1]), std::bit_cast<float>(record[2]),
-                               std::bit_cast<float>(record[3])});
-        } else {
-            end = std::copy_n(record, recordWords_, end);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            std::uint32_t* at = pending[i].record;
+            at[recordWords_ + 1] = pathOf(*pending[i].mesh, *pending[i].triangle,
+                                          {std::bit_cast<float>(at[1]), std::bit_cast<float>(at[2]),
+                                           std::bit_cast<float>(at[3])});
         }
     }
-    block.words = static_cast<std::uint32_t>(end - block.data());
+    std::uint32_t* kept = block.data();
+    for (record = block.data(); record < end; record += recordWords_) {
+        if (record[0] == kNoFace) continue;
+        for (std::uint32_t word = 0; word < recordWords_; ++word) *kept++ = record[word];
+    }
+    block.words = static_cast<std::uint32_t>(kept - block.data());
 }
 
 /// Before records are applied: what their faces are found by.

@@ -181,9 +181,7 @@ double SurfaceStore::area(std::uint32_t mesh, std::uint32_t face) const {
     return std::isfinite(area) ? area : 0;
 }
 
-std::uint32_t SurfaceStore::pathOf(std::uint32_t mesh, std::uint32_t face, Vec3f position) const {
-    const SurfaceMeshView& view = meshes_[mesh];
-    const Triangle t = view.triangles[face - faceStarts_[mesh]];
+std::uint32_t SurfaceStore::pathOf(const SurfaceMeshView& view, const Triangle& t, Vec3f position) {
     const std::size_t count = view.positions.size();
     if (t[0] >= count || t[1] >= count || t[2] >= count) return 0;
     // Doubles: in thin triangles single precision would move points by many faces of the subdivision.

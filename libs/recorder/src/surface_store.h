@@ -135,7 +135,7 @@ class SurfaceStore {
     /// World-space area of a face of the scene; 0 if it has none or a vertex is missing or not finite.
     double area(std::uint32_t mesh, std::uint32_t face) const;
     /// From a position to a path; that of the first vertex on a face that has no area.
-    std::uint32_t pathOf(std::uint32_t mesh, std::uint32_t face, Vec3f position) const;
+    static std::uint32_t pathOf(const SurfaceMeshView& mesh, const Triangle& triangle, Vec3f position);
 
     // For post-processing, while no thread records.
     SurfaceRef root(std::uint32_t face) const;
