@@ -341,8 +341,13 @@ class Checker {
     Domain rows_ = Domain::path;
 };
 
+/// True for names by which a recording is asked for core quantities.
+bool isCoreColumn(const std::string& name) {
+    return std::any_of(coreNames().begin(), coreNames().end(), [&](const CoreName& core) { return name == core.columns; }) || name == "splat";
+}
+
 void collectColumns(const Node& node, std::set<std::string>& columns) {
-    if (node.kind == Kind::user) columns.insert(node.text);
+    if (node.kind == Kind::user) columns.insert(isCoreColumn(node.text) ? "data[\"" + node.text + "\"]" : node.text);
     if (node.kind == Kind::core) {
         if (const std::string recorded = findCore(node.scope, node.text)->columns; !recorded.empty()) columns.insert(recorded);
     }

@@ -265,6 +265,8 @@ re2::RE2::Options options() {
 
 LightPathExpression::~LightPathExpression() = default;
 
+std::size_t LightPathExpression::symbolCount() const { return symbolOf(0, 0, labels_.size() + 1); }
+
 int LightPathExpression::programSize() const { return expression_->ProgramSize(); }
 
 std::shared_ptr<const LightPathExpression> LightPathExpression::parse(std::string_view text, std::uint32_t begin, QueryError& error) {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "emca/core/path_set.h"
@@ -44,6 +43,8 @@ class LightPathExpression {
     /// Instructions that it compiles to: what it costs.
     int programSize() const;
 
+    /// Symbols are below this.
+    std::size_t symbolCount() const;
     static constexpr char kCamera = 1, kLight = 2, kSurface = 3, kEnvironment = 4;
     static constexpr std::size_t kMaximumLabels = 15, kMaximumLength = 4096;
 
@@ -66,7 +67,7 @@ class LightPathMatcher {
   private:
     /// Ways that begin alike share their nodes; a node knows for each end whether the way to it matches.
     struct Node { std::array<std::uint8_t, 3> matches{kUnknown, kUnknown, kUnknown}; };
-    static constexpr std::size_t kMaximumNodes = 1 << 16;
+    static constexpr std::size_t kMaximumEntries = 1 << 22;
 
     Truth contributionsMatch(Index path);
     Truth walkMatches();
@@ -93,7 +94,8 @@ class LightPathMatcher {
     std::vector<std::uint32_t> reached_;      ///< the node of each prefix of the walk that was asked for
     std::string text_;
     std::vector<Node> nodes_;
-    std::unordered_map<std::uint32_t, std::uint32_t> next_;  ///< node and symbol to node
+    std::size_t width_;                       ///< how many symbols there are
+    std::vector<std::uint32_t> next_;         ///< per node and symbol: the node after it; 0 if not seen yet
 };
 
 }  // namespace emca::query::detail

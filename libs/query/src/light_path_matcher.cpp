@@ -7,7 +7,7 @@
 namespace emca::query::detail {
 
 LightPathMatcher::LightPathMatcher(const LightPathExpression& expression, const PathSet& paths)
-    : expression_(expression), paths_(paths), hasContributions_(!paths.columns().contributions.empty()) {
+    : expression_(expression), paths_(paths), hasContributions_(!paths.columns().contributions.empty()), width_(expression.symbolCount()) {
     const auto& strings = paths.columns().strings;
     labelClasses_.resize(strings.size());
     for (std::size_t i = 0; i < strings.size() && !expression.labels().empty(); ++i) {
@@ -60,20 +60,24 @@ void LightPathMatcher::readWalk(Index path) {
     vertices_.resize(kept);
     recorded_ = std::min(walk_.find('\0'), walk_.size());
     reached_.assign(1, 0);
-    if (nodes_.size() > kMaximumNodes) forget();
+    if (next_.size() > kMaximumEntries) forget();
 }
 
 void LightPathMatcher::forget() {
     nodes_.assign(1, {});
-    next_.clear();
+    next_.assign(width_, 0);
     reached_.assign(1, 0);
 }
 
 /// The node after one symbol more.
 std::uint32_t LightPathMatcher::follow(std::uint32_t node, char symbol) {
-    const auto [it, isNew] = next_.try_emplace(node << 8 | static_cast<unsigned char>(symbol), static_cast<std::uint32_t>(nodes_.size()));
-    if (isNew) nodes_.emplace_back();
-    return it->second;
+    const std::size_t entry = node * width_ + static_cast<unsigned char>(symbol);
+    if (next_[entry] == 0) {  // nothing leads back to the root
+        next_[entry] = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.emplace_back();
+        next_.resize(nodes_.size() * width_, 0);
+    }
+    return next_[entry];
 }
 
 /// The way from the camera over symbols [first, last) of the walk to an end.
@@ -85,7 +89,7 @@ Truth LightPathMatcher::wayMatches(std::size_t first, std::size_t last, char end
         while (reached_.size() <= last) reached_.push_back(follow(reached_.back(), walk_[reached_.size() - 1]));
         node = reached_[last];
     } else {
-        if (nodes_.size() > kMaximumNodes) forget();
+        if (next_.size() > kMaximumEntries) forget();
         for (const char symbol : way) node = follow(node, symbol);
     }
     std::uint8_t& known = nodes_[node].matches[static_cast<std::size_t>(end - LightPathExpression::kLight)];
