@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "emca/analysis/format.h"
 #include "json.h"
-#include "settings_options.h"
+#include "session_summary.h"
 #include "table.h"
 
 namespace emca::cli {
@@ -69,7 +69,22 @@ std::string infoText(const client::ServerInfo& info) {
     return table.text();
 }
 
+int runSession(const InfoArguments& arguments) {
+    const auto opened = client::openSession(arguments.address);
+    if (!opened) return fail(opened.error());
+    if (!arguments.json) {
+        for (const std::string& notice : opened->notices) fmt::print(stderr, "warning: {}\n", printable(notice));
+        fmt::print("{}", summaryText(arguments.address, *opened));
+        return Exit::ok;
+    }
+    Json out = summaryJson(arguments.address, *opened);
+    out["renderer"] = opened->session.info ? infoJson(*opened->session.info) : Json(nullptr);
+    fmt::print("{}", dump(out));
+    return Exit::ok;
+}
+
 int runInfo(const InfoArguments& arguments) {
+    if (namesSession(arguments.address)) return runSession(arguments);
     const auto connection = connect(arguments.address);
     if (!connection) return fail(connection.error());
     const Result<client::ServerInfo> info = (*connection)->info();
@@ -82,10 +97,12 @@ int runInfo(const InfoArguments& arguments) {
 
 void addInfoCommand(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<InfoArguments>();
-    CLI::App* command = app.add_subcommand("info", "What a renderer says about itself and its scene");
-    addAddressOption(*command, arguments->address);
+    CLI::App* command = app.add_subcommand("info", "What a renderer says about itself and its scene, or what a session file holds");
+    command->add_option("address", arguments->address, "where the renderer listens, or a session")
+        ->required()
+        ->type_name("HOST:PORT|FILE.emca");
     command->add_flag("--json", arguments->json, "for scripts");
-    command->footer("Example:\n  emca info localhost:50013 --json | jq .triangles");
+    command->footer("Example:\n  emca info localhost:50013 --json | jq .triangles\n  emca info firefly.emca");
     command->callback([arguments, &run] { run = [arguments] { return runInfo(*arguments); }; });
 }
 

@@ -18,6 +18,14 @@ Error violation(const std::string& what) {
 Pixel fromWire(const wire::Pixel& p) { return {p.x(), p.y()}; }
 PathId fromFile(const file::PathId& id) { return {fromWire(id.pixel()), id.sample(), id.part()}; }
 
+/// The verifier does not look at the alignment of structs: they are read in place only where that is right.
+template <typename Struct>
+const Struct* aligned(Decoder& d, const void* at) {
+    if (reinterpret_cast<std::uintptr_t>(at) % alignof(Struct) == 0) return static_cast<const Struct*>(at);
+    d.fail("an entry is not aligned");
+    return nullptr;
+}
+
 Head decodeItem(Decoder& d, const file::Head& item) {
     Head head{d.text(item.software()), item.saved(), {}};
     if (!item.parts()) return head;
@@ -37,11 +45,12 @@ Notes decodeItem(Decoder& d, const file::Notes& item) {
 Selection decodeItem(Decoder& d, const file::Selection& item) {
     Selection selection;
     if (item.pixel()) selection.pixel = fromWire(*item.pixel());
-    if (item.paths()) {
-        for (const file::PathId* path : *item.paths()) selection.paths.push_back(fromFile(*path));
+    if (const auto* list = item.paths(); list && list->size() > 0) {
+        const auto* paths = aligned<file::PathId>(d, list->Data());
+        for (std::uint32_t i = 0; paths && i < list->size(); ++i) selection.paths.push_back(fromFile(paths[i]));
     }
-    if (item.current_path()) selection.currentPath = fromFile(*item.current_path());
-    if (const auto* v = item.vertex()) {
+    if (const auto* path = aligned<file::PathId>(d, item.current_path())) selection.currentPath = fromFile(*path);
+    if (const auto* v = aligned<file::VertexId>(d, item.vertex())) {
         selection.vertex = {fromFile(v->path()), v->depth(), v->subpath()};
         if (v->subpath() > static_cast<std::uint8_t>(Subpath::light)) d.fail("there is no such subpath");
     }
