@@ -22,6 +22,7 @@ std::span<const std::byte> bytesOf(const T& value) {
 CursorImpl::CursorImpl(RecordingShared& shared)
     : shared_(shared), pool_(shared.budget), log_(shared.budget), table_(64, kNone) {
     wanted_ = shared.choice.core;
+    wantsUserData_ = shared.choice.wantsUserData();
 }
 
 bool CursorImpl::reserve(std::size_t bytes) {
@@ -208,17 +209,15 @@ bool Cursor::makeRoom(std::uint16_t tag, std::size_t bytes) {
     return true;
 }
 
-void Cursor::setEvent(Event event, Lobe lobe, std::string_view label) {
+void Cursor::recordEvent(Event event, Lobe lobe, std::string_view label) {
     CursorImpl& c = impl(*this);
     if (c.vertex_ == CursorImpl::kNone) return c.dropWithoutVertex();
-    if (!c.wants(LogTag::event)) return;
     add(LogTag::event, EventValue{label.empty() ? kNoString : c.strings_.add(label, c.shared_.budget), event, lobe});
 }
 
-void Cursor::addContribution(Color value, std::string_view technique, float misWeight, LightEnd end) {
+void Cursor::recordContribution(Color value, std::string_view technique, float misWeight, LightEnd end) {
     CursorImpl& c = impl(*this);
     if (c.vertex_ == CursorImpl::kNone) return c.dropWithoutVertex();
-    if (!c.wants(LogTag::contribution)) return;
     const std::uint32_t string = c.strings_.add(technique, c.shared_.budget);
     if (string == kNoString) return void(++c.stats_.droppedByBudget);
     add(LogTag::contribution, Contribution{value, misWeight, string, end, {}});

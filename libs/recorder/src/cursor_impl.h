@@ -28,6 +28,7 @@ static_assert(LogTag::firstUser < 30);
 struct ColumnChoice {
     explicit ColumnChoice(const std::vector<std::string>& names);
     bool wantsKey(std::string_view key) const;
+    bool wantsUserData() const { return all || !keys.empty(); }
     bool wantsCore(std::uint32_t bit) const { return (core & bit) != 0; }
     std::uint32_t core = Core::all;
     bool all = true;
@@ -98,7 +99,6 @@ class CursorImpl final : public Cursor {
     void dropWithoutVertex() { ++(starved_ ? stats_.droppedByBudget : stats_.droppedWithoutVertex); }
     /// Room for `bytes` at next_, or false, counted.
     bool reserve(std::size_t bytes);
-    bool wants(std::uint16_t coreTag) const { return (wanted_ >> coreTag & 1) != 0; }
     template <typename T>
     void append(const KeyParts& key, Scope scope, const T& value);
     std::uint32_t findColumn(const KeyParts& key, Scope scope, ValueType type);

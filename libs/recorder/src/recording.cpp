@@ -43,8 +43,10 @@ ColumnChoice::ColumnChoice(const std::vector<std::string>& names) : all(names.em
     core = 0;
     for (const std::string& name : names) {
         const auto it = std::find_if(kCoreNames.begin(), kCoreNames.end(), [&](const CoreName& c) { return c.name == name; });
+        constexpr std::string_view kBegin = "data[\"", kEnd = "\"]";
         if (it != kCoreNames.end()) core |= it->bit;
-        keys.push_back(name);  // a renderer's own data may have the name of a core quantity
+        else if (name.starts_with(kBegin) && name.ends_with(kEnd)) keys.push_back(name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size()));
+        else keys.push_back(name);
     }
     std::sort(keys.begin(), keys.end());
 }

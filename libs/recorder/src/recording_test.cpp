@@ -246,6 +246,25 @@ TEST(Recording, OnlyTheColumnsAskedFor) {
     EXPECT_TRUE(paths->columns().estimates.empty());
 }
 
+TEST(Recording, OwnDataOfACoreQuantitysNameIsAskedForAsData) {
+    for (const bool own : {false, true}) {
+        Recording recording({.columns = {own ? "data[\"position\"]" : "position"}});
+        int computed = 0;
+        {
+            const RecordScope scope(recording, {0, 0});
+            recorder().setPathIndex(0);
+            recorder().setDepthIndex(1);
+            recorder().setIntersectionPos(Vec3f{1, 2, 3});
+            recorder().addIntersectionData("position", [&] { ++computed; return 9.f; });
+        }
+        auto paths = recording.finish();
+        ASSERT_TRUE(paths.ok());
+        EXPECT_EQ(paths->userColumns().size(), own ? 1u : 0u);
+        EXPECT_EQ(paths->position(0).has_value(), !own);
+        EXPECT_EQ(computed, own ? 1 : 0) << "where no data are wanted, none are computed";
+    }
+}
+
 TEST(Recording, TheBudgetHoldsAndWhatDidNotFitIsCounted) {
     Recording recording({.budgetBytes = 200000});
     {

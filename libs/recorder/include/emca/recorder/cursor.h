@@ -61,10 +61,15 @@ class Cursor {
     void setEnvironmentPosition(Vec3f position);
     void addNextEvent(Vec3f position, bool visible) { add(LogTag::nextEvent, position, visible ? 1u : 0u); }
     void setSurface(std::int32_t mesh, std::int32_t face) { add(LogTag::surface, SurfaceValue{mesh, face}); }
-    void setEvent(Event event, Lobe lobe, std::string_view label);
+    void setEvent(Event event, Lobe lobe, std::string_view label) { if (wants(LogTag::event)) recordEvent(event, lobe, label); }
     void setEstimate(Color estimate) { add(LogTag::estimate, estimate); }
     void setEmission(Color emission) { add(LogTag::emission, emission); }
-    void addContribution(Color value, std::string_view technique, float misWeight, LightEnd end);
+    void addContribution(Color value, std::string_view technique, float misWeight, LightEnd end) {
+        if (wants(LogTag::contribution)) recordContribution(value, technique, misWeight, end);
+    }
+
+    /// False if nobody asked for any user data, so that values need not even be computed.
+    bool wantsUserData() const { return wantsUserData_; }
 
     /// T: one of the stored types of recordable.h.
     template <typename T>
@@ -92,6 +97,10 @@ class Cursor {
     };
     static constexpr int kFastShift = 64 - 8;
 
+    bool wants(std::uint16_t coreTag) const { return (wanted_ >> coreTag & 1) != 0; }
+    void recordEvent(Event event, Lobe lobe, std::string_view label);
+    void recordContribution(Color value, std::string_view technique, float misWeight, LightEnd end);
+
     Cursor() = default;
     ~Cursor() = default;
     Cursor(const Cursor&) = delete;
@@ -118,7 +127,7 @@ class Cursor {
     template <typename... T>
     void add(std::uint16_t tag, const T&... values) {
         if (hasRoom((sizeof values + ...))) [[likely]] {
-            if (!(wanted_ >> tag & 1)) return;
+            if (!wants(tag)) return;
             ++coreCounts_[tag];
             return put(tag, values...);
         }
@@ -133,6 +142,7 @@ class Cursor {
     std::byte* next_ = nullptr;   ///< of the log
     std::byte* limit_ = nullptr;  ///< where the log has no more room; nullptr if no vertex is open
     std::uint32_t wanted_ = 0;    ///< bit per tag: core quantities that somebody asked for
+    bool wantsUserData_ = true;
     std::uint8_t vertexFlags_ = 0;///< VertexFlag of the open vertex, as far as the recording itself needs them
     std::uint32_t coreCounts_[LogTag::firstUser] = {};
     FastColumn fastColumns_[std::size_t(1) << (64 - kFastShift)];

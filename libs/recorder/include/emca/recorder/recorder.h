@@ -83,9 +83,9 @@ class BasicPathRecorder {
     // The key is copied behind the branch: were its own address passed on, compilers would fill it in before asking.
     /// Any value under any name; repeated names are kept in call order.
     template <typename T>
-    void addIntersectionData(Key key, const T& value) { if (isRecording()) cursor_->addVertexData(Key(key), detail::stored(detail::resolved(value))); }
+    void addIntersectionData(Key key, const T& value) { if (isRecording() && cursor_->wantsUserData()) cursor_->addVertexData(Key(key), detail::stored(detail::resolved(value))); }
     template <typename T>
-    void addPathData(Key key, const T& value) { if (isRecording()) cursor_->addPathData(Key(key), detail::stored(detail::resolved(value))); }
+    void addPathData(Key key, const T& value) { if (isRecording() && cursor_->wantsUserData()) cursor_->addPathData(Key(key), detail::stored(detail::resolved(value))); }
 
   private:
     friend class RecordScope;

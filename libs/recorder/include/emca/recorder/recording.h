@@ -32,7 +32,8 @@ struct RecordingOptions {
     /// The pixels asked for. A path is kept only if it belongs to one of them or adds a splat to one; empty: keep all.
     std::vector<Pixel> pixels;
     /// Names of the columns wanted: user keys and the core names "origin", "estimate", "position", "nee",
-    /// "intersection estimate", "emission", "surface", "event", "contribution", "splat". Empty: all.
+    /// "intersection estimate", "emission", "surface", "event", "contribution", "splat". A renderer's own data of such a
+    /// name is data["position"]. Empty: all.
     std::vector<std::string> columns;
     std::size_t budgetBytes = 256u << 20;  ///< beyond, values are dropped and counted
     bool locations = false;                ///< remember the source line of every user value
