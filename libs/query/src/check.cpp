@@ -109,7 +109,7 @@ class Checker {
         const CoreName& found = *findCore(node.scope, node.text);
         node.single = found.columns[0] != '\0' && found.core != Core::depth &&
                       found.core != Core::contributions && found.core != Core::splats && found.core != Core::mesh &&
-                      found.core != Core::face && found.core != Core::contributionDepth && found.core != Core::nextEventDepth;
+                      found.core != Core::face && found.core != Core::segment && found.core != Core::contributionDepth && found.core != Core::nextEventDepth;
         return visible(node, current) && set(node, found.type, found.components, node.scope);
     }
 
@@ -351,7 +351,7 @@ void collectColumns(const Node& node, std::set<std::string>& columns) {
     if (node.kind == Kind::core) {
         if (const std::string recorded = findCore(node.scope, node.text)->columns; !recorded.empty()) columns.insert(recorded);
     }
-    if (node.kind == Kind::lightPath) columns.insert({"event", "contribution", "emission", "nee", "position"});
+    if (node.kind == Kind::lightPath) columns.insert({"event", "contribution", "emission", "nee"});
     for (const Node& child : node.children) collectColumns(child, columns);
 }
 
