@@ -140,6 +140,12 @@ class BruteForce {
         if (name == "depth") return number(paths_.depthIndex(v));
         if (name == "index") return number(v - all.first);
         if (name == "position") return ifThere(paths_.position(v), vector);
+        if (name == "segment") {
+            if (v == all.first || paths_.subpath(v) != paths_.subpath(v - 1) || !paths_.position(v) || !paths_.position(v - 1)) return {};
+            const Vec3f a = *paths_.position(v - 1), b = *paths_.position(v);
+            const double x = double(b.x) - double(a.x), y = double(b.y) - double(a.y), z = double(b.z) - double(a.z);
+            return number(std::sqrt(x * x + y * y + z * z));
+        }
         if (name == "estimate") return ifThere(paths_.vertexEstimate(v), color);
         if (name == "luminance") return ifThere(paths_.vertexEstimate(v), [](Color c) { return number(double(luminance(c)), true); });
         if (name == "emission") return ifThere(paths_.emission(v), color);

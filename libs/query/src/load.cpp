@@ -109,6 +109,23 @@ Values depths(const PathSet& paths, IndexRange range) {
     return values;
 }
 
+/// Lengths of the segments that lead to vertices.
+Values segments(const PathSet& paths, IndexRange vertices) {
+    Values values = unknown(vertices.size(), Type::number, 1);
+    const PathColumns& c = paths.columns();
+    if (c.positions.empty() || vertices.empty()) return values;
+    const auto hasPosition = [&](Index v) { return (c.vertexFlags[v] & VertexFlag::hasPosition) != 0; };
+    Index path = paths.pathOf(vertices.first);
+    for (Index v = vertices.first; v < vertices.last; ++v) {
+        while (c.firstVertex[path + 1] <= v) ++path;
+        if (v == c.firstVertex[path] || paths.subpath(v) != paths.subpath(v - 1) || !hasPosition(v) || !hasPosition(v - 1)) continue;
+        const Vec3f a = c.positions[v - 1], b = c.positions[v];
+        values.numbers[0][v - vertices.first] = length(Vec3d{b.x, b.y, b.z} - Vec3d{a.x, a.y, a.z});
+        values.known[v - vertices.first] = 1;
+    }
+    return values;
+}
+
 /// How many values each of some owners has.
 Values countsOf(const std::vector<Index>& firsts) {
     return each({0, static_cast<Index>(firsts.size() - 1)}, [&](Index i) { return firsts[i + 1] - firsts[i]; });
@@ -227,6 +244,7 @@ Values Evaluator::core(const Node& node, Chunk& chunk) {
             return each({0, range.size()}, [&](Index i) { return i - firsts[owners[i]]; });
         }
         case Core::position: return points(c.positions, c.vertexFlags, range, VertexFlag::hasPosition);
+        case Core::segment: return segments(paths_, range);
         case Core::vertexEstimate: return colors(c.vertexEstimates, c.vertexFlags, range, VertexFlag::hasEstimate);
         case Core::vertexLuminance: return luminances(c.vertexEstimates, c.vertexFlags, range, VertexFlag::hasEstimate);
         case Core::emission: return colors(c.emissions, c.vertexFlags, range, VertexFlag::hasEmission);

@@ -46,7 +46,7 @@ class RandomQueries {
         return leaf(domain,
                     {"sample", "part", "luminance", "depth", "vertices", "contributions", "splats", "pixel.x", "estimate.g", "estimate[1]", "origin.z", "f", "d", "i",
                      "dense", "again", "mixed", "`rare key`", "s[1]", "col.r", "ca.a", "vd.y", "v2[0]", "data['position']", "never"},
-                    {"v.depth", "v.index", "v.luminance", "v.mesh", "v.face", "v.position.y", "v.estimate.r", "v.emission.g", "v.f", "v.d", "v.i", "v.dense", "v.again",
+                    {"v.depth", "v.index", "v.segment", "v.luminance", "v.mesh", "v.face", "v.position.y", "v.estimate.r", "v.emission.g", "v.f", "v.d", "v.i", "v.dense", "v.again",
                      "v.mixed", "v.'rare key'", "v.s[0]", "v.s[2]", "v.col.b", "v.ca[3]", "v.vd.z", "v.v2.y", "v.data[\"position\"]", "v.`dense vector`.x", "v.never"},
                     {"c.luminance", "c.weight", "c.depth", "c.value.b"}, {"n.depth", "n.position.x", "n.position[2]"});
     }

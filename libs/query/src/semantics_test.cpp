@@ -204,6 +204,7 @@ TEST(QuerySemantics, Quantities) {
     EXPECT_EQ(truths("vertices == 3 and depth == 3 and contributions == 3 and splats == 0 and sample == 0 and part == 0", paths), "100");
     EXPECT_EQ(truths("sample == 7 and part == 2 and pixel.x == 1 and vertices == 0 and depth == 0", paths), "001");
     EXPECT_EQ(truths("depth == 1 and vertices == 2", paths), "010") << "vertex 2 has no position";
+    EXPECT_EQ(truths("any(v.segment == 5) and count(has(v.segment)) == 2", paths), "100") << "from (0, 0, 0) to (3, 4, 0)";
     EXPECT_EQ(truths("origin.z == -5", paths), "1??");
     EXPECT_EQ(truths("any(v.mesh == 2 and v.face == 7 and v.label == 'wood' and v.lobe == 'diffuse' and v.event == 'reflect' and v.index == 0 and not v.last)", paths), "1?0");
     EXPECT_EQ(truths("any(v.last and v.environment and v.emission == color(7, 7, 7) and v.subpath == 'camera')", paths), "100");

@@ -27,7 +27,7 @@ const char* prefix(Domain domain);
 /// Quantities that every renderer records under the same name (DESIGN: core names win over user names).
 enum class Core : std::uint8_t {
     pixel, sample, part, origin, estimate, luminance, depth, vertices, contributions, splats,
-    vertexDepth, vertexIndex, position, vertexEstimate, vertexLuminance, emission, mesh, face, event, lobe, label,
+    vertexDepth, vertexIndex, position, segment, vertexEstimate, vertexLuminance, emission, mesh, face, event, lobe, label,
     environment, subpath, isLast,
     value, valueLuminance, technique, weight, end, contributionDepth,
     nextEventPosition, visible, nextEventDepth,

@@ -157,7 +157,7 @@ class Tabulation {
     }
 
     static bool hasText(const Node& node) {
-        return node.kind == Kind::operation && std::any_of(node.children.begin(), node.children.end(), [](const Node& c) { return c.type == Type::text || c.type == Type::spectrum; });
+        return node.kind == Kind::operation && std::any_of(node.children.begin(), node.children.end(), [](const Node& c) { return c.type == Type::text || c.type == Type::spectrum || hasText(c); });
     }
 
     bool widen(const Node& node, QueryError& error) {
