@@ -110,7 +110,7 @@ PreviewTile decodeBody(Decoder& d, const wire::PreviewTile& m) {
 }
 RenderResult decodeBody(Decoder& d, const wire::RenderResult& m) {
     return {m.id(), settings(d, m.settings()), m.seconds(), m.width(), m.height(), decodeLayers(d, m.layers()),
-            decodeCounts(m.surface_counts()), m.surface_faces()};
+            decodeCounts(d, m.surface_counts()), m.surface_faces()};
 }
 ImageRows decodeBody(Decoder& d, const wire::ImageRows& m) {
     ImageRows rows{m.first_row(), m.row_count(), d.view<Color>(m.colors()), d.view<float>(m.samples()),
@@ -148,7 +148,7 @@ MatchCounts decodeMatches(Decoder& d, const wire::MatchCounts& m, std::size_t pi
 TraceResult decodeBody(Decoder& d, const wire::TraceResult& m) {
     TraceResult result;
     result.pixels = d.copy<Pixel>(m.pixels());
-    if (m.replays()) {
+    if (m.replays() && d.aligned<wire::Replay>(m.replays()->Data())) {
         for (const wire::Replay* replay : *m.replays()) {
             result.replays.push_back({d.enumeration(replay->verdict(), Verdict::different, "verdict"),
                                       d.enumeration(replay->sums(), SumCheck::differs, "sum check"),
@@ -158,7 +158,7 @@ TraceResult decodeBody(Decoder& d, const wire::TraceResult& m) {
     if (result.replays.size() != result.pixels.size()) d.fail("there is not one comparison for each traced pixel");
     result.settings = settings(d, m.settings());
     result.renderId = m.render_id();
-    if (const auto* s = m.stats()) {
+    if (const auto* s = d.aligned<wire::RecordingStats>(m.stats())) {
         result.stats = {s->dropped_without_path(), s->dropped_without_vertex(), s->dropped_by_budget(),
                         s->paths_not_kept(), s->bytes()};
     }

@@ -22,13 +22,14 @@ std::vector<Layer> decodeLayers(Decoder& d, const flatbuffers::Vector<flatbuffer
     return result;
 }
 
-SurfaceCounts decodeCounts(const wire::SurfaceCounts* c) {
+SurfaceCounts decodeCounts(Decoder& d, const wire::SurfaceCounts* counts) {
+    const auto* c = d.aligned<wire::SurfaceCounts>(counts);
     if (!c) return {};
     return {c->points(), c->coarse(), c->invalid(), c->refused_divisions(), c->bytes_used(), c->budget_bytes()};
 }
 
 SurfaceResult decodeSurface(Decoder& d, const wire::SurfaceResult& m) {
-    return {m.render_id(), decodeLayers(d, m.layers(), true), decodeCounts(m.counts()),
+    return {m.render_id(), decodeLayers(d, m.layers(), true), decodeCounts(d, m.counts()),
             m.mesh_count(), m.face_count(), m.topology_bytes()};
 }
 

@@ -48,6 +48,13 @@ class Decoder {
         if (!mayCopy(values.size() * sizeof(Core))) return {};
         return {values.begin(), values.end()};
     }
+    /// A structure that is read in place; null if it is absent or, which the verifier does not look at, lies askew.
+    template <typename Struct>
+    const Struct* aligned(const void* at) {
+        if (reinterpret_cast<std::uintptr_t>(at) % alignof(Struct) == 0) return static_cast<const Struct*>(at);
+        fail("an entry is not aligned");
+        return nullptr;
+    }
     template <typename Enum>
     Enum enumeration(std::uint8_t value, Enum last, const char* what) {
         if (value > static_cast<std::uint8_t>(last)) {
@@ -74,7 +81,7 @@ class Decoder {
 /// Layers of a kind that only later versions know are left out, or fail the message where what follows counts them.
 std::vector<Layer> decodeLayers(Decoder& decoder, const flatbuffers::Vector<flatbuffers::Offset<wire::Layer>>* layers,
                                 bool everyKindMustBeKnown = false);
-SurfaceCounts decodeCounts(const wire::SurfaceCounts* counts);
+SurfaceCounts decodeCounts(Decoder& decoder, const wire::SurfaceCounts* counts);
 SurfaceResult decodeSurface(Decoder& decoder, const wire::SurfaceResult& message);
 SurfaceChunk decodeSurface(Decoder& decoder, const wire::SurfaceChunk& message);
 

@@ -18,14 +18,6 @@ Error violation(const std::string& what) {
 Pixel fromWire(const wire::Pixel& p) { return {p.x(), p.y()}; }
 PathId fromFile(const file::PathId& id) { return {fromWire(id.pixel()), id.sample(), id.part()}; }
 
-/// The verifier does not look at the alignment of structs: they are read in place only where that is right.
-template <typename Struct>
-const Struct* aligned(Decoder& d, const void* at) {
-    if (reinterpret_cast<std::uintptr_t>(at) % alignof(Struct) == 0) return static_cast<const Struct*>(at);
-    d.fail("an entry is not aligned");
-    return nullptr;
-}
-
 Head decodeItem(Decoder& d, const file::Head& item) {
     Head head{d.text(item.software()), item.saved(), {}};
     if (!item.parts()) return head;
@@ -46,11 +38,11 @@ Selection decodeItem(Decoder& d, const file::Selection& item) {
     Selection selection;
     if (item.pixel()) selection.pixel = fromWire(*item.pixel());
     if (const auto* list = item.paths(); list && list->size() > 0) {
-        const auto* paths = aligned<file::PathId>(d, list->Data());
+        const auto* paths = d.aligned<file::PathId>(list->Data());
         for (std::uint32_t i = 0; paths && i < list->size(); ++i) selection.paths.push_back(fromFile(paths[i]));
     }
-    if (const auto* path = aligned<file::PathId>(d, item.current_path())) selection.currentPath = fromFile(*path);
-    if (const auto* v = aligned<file::VertexId>(d, item.vertex())) {
+    if (const auto* path = d.aligned<file::PathId>(item.current_path())) selection.currentPath = fromFile(*path);
+    if (const auto* v = d.aligned<file::VertexId>(item.vertex())) {
         selection.vertex = {fromFile(v->path()), v->depth(), v->subpath()};
         if (v->subpath() > static_cast<std::uint8_t>(Subpath::light)) d.fail("there is no such subpath");
     }
