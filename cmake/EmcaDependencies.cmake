@@ -78,6 +78,17 @@ if(VTK_FOUND)
   endif()
 endif()
 
+# The package for Python. The packages of scripts/install-deps.sh belong to the system's Python: another one that comes
+# first in PATH has no numpy, as a rule. Python3_EXECUTABLE chooses another; an active virtual environment is preferred.
+if(NOT DEFINED Python3_EXECUTABLE AND NOT DEFINED ENV{VIRTUAL_ENV} AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python3 3.9 QUIET COMPONENTS Interpreter Development.Module NumPy)
+find_package(pybind11 2.10 CONFIG QUIET)
+emca_have(Python Python3_Development.Module_FOUND)
+emca_have(numpy Python3_NumPy_FOUND)
+emca_have(pybind11 pybind11_FOUND)
+
 if(EMCA_BUILD_TESTS)
   find_package(GTest QUIET)
   if(NOT GTest_FOUND)
