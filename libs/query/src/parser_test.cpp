@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "prepare.h"
@@ -16,7 +17,7 @@ using detail::Op;
 /// The tree with all parentheses written.
 std::string shape(const Node& node) {
     switch (node.kind) {
-        case Kind::number: return node.number == static_cast<int>(node.number) ? std::to_string(static_cast<int>(node.number)) : std::to_string(node.number);
+        case Kind::number: return std::abs(node.number) < 1e6 && node.number == static_cast<int>(node.number) ? std::to_string(static_cast<int>(node.number)) : std::to_string(node.number);
         case Kind::boolean: return node.number != 0 ? "true" : "false";
         case Kind::text: return "'" + node.text + "'";
         case Kind::lightPath: return "lpe'" + node.text + "'";
