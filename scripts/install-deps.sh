@@ -8,7 +8,7 @@ packages=(
   build-essential cmake ninja-build pkg-config git
   # libraries
   flatbuffers-compiler libflatbuffers-dev libasio-dev libzstd-dev libre2-dev zlib1g-dev
-  libembree-dev libtbb-dev libpugixml-dev libopenimageio-dev libopenexr-dev libboost-dev
+  libembree-dev libtbb-dev libpugixml-dev libopenimageio-dev libopenexr-dev libjpeg62-turbo-dev libboost-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev
   # explorer
   qtbase5-dev libqt5svg5-dev libqwt-qt5-dev libvtk9-dev libvtk9-qt-dev fonts-inter

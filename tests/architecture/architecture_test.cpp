@@ -26,7 +26,7 @@ const std::map<std::string, Rule>& rules() {
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
         {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio"}}},
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
-        {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "dlfcn.h", "link.h"}}},
+        {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "jpeglib.h", "dlfcn.h", "link.h"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
         {"libs/render", {{"core", "recorder", "imageio", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h"}}},
         {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},

@@ -82,7 +82,7 @@ Result<const FormatModule*> load() {
 /// Whether a name promises a format that needs no module.
 bool isOurs(const fs::path& file) {
     const std::string extension = lowerCase(file.extension().string());
-    return extension == ".exr" || extension == ".pfm";
+    return extension == ".exr" || extension == ".pfm" || extension == ".jpg" || extension == ".jpeg";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "emca/imageio/stored_image.h"
 #include "exr.h"
 #include "format_module.h"
+#include "jpeg.h"
 #include "pfm.h"
 #include "sentences.h"
 #include "size_check.h"
@@ -34,6 +35,9 @@ Result<StoredImage> readAny(const std::filesystem::path& file, std::uintmax_t fi
         Result<std::optional<StoredImage>> image = readExr(file, fileBytes);
         if (!image) return image.error();
         if (*image) return std::move(**image);
+    }
+    if (isJpeg(file)) {
+        if (auto image = readJpeg(file, fileBytes, keepBytes)) return std::move(*image);
     }
     const auto& module = formatModule();
     if (!module) return withoutModule(file, "read", module.error());
