@@ -19,6 +19,14 @@ Result<std::uint64_t> parseWhole(const std::string& what, const std::string& tex
                  fmt::format("{} is \"{}\"; it must be a whole number from {} to {}.", what, text, smallest, largest)};
 }
 
+Result<double> parseReal(const std::string& what, const std::string& text, double smallest, double largest) {
+    double value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, code] = std::from_chars(text.data(), last, value);
+    if (code == std::errc() && end == last && value >= smallest && value <= largest) return value;
+    return Error{ErrorCode::invalidArgument, fmt::format("{} is \"{}\"; it must be a number from {:.6g} to {:.6g}.", what, text, smallest, largest)};
+}
+
 std::vector<std::string> splitList(const std::string& text) {
     std::vector<std::string> words;
     for (std::size_t begin = 0; begin <= text.size();) {

@@ -14,6 +14,8 @@ namespace emca::cli {
 /// Errors: invalidArgument, naming `what` and the range.
 Result<std::uint64_t> parseWhole(const std::string& what, const std::string& text, std::uint64_t smallest,
                                  std::uint64_t largest);
+/// A finite number, with a point if it has a fraction. Errors: invalidArgument, naming `what` and the range.
+Result<double> parseReal(const std::string& what, const std::string& text, double smallest, double largest);
 /// The words between commas, without blanks around them; empty ones are left out.
 std::vector<std::string> splitList(const std::string& text);
 Result<Pixel> parsePixel(const std::string& x, const std::string& y);

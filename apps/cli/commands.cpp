@@ -6,7 +6,8 @@ namespace emca::cli {
 
 std::span<const AddCommand> commands() {
     static constexpr AddCommand kCommands[] = {addInfoCommand, addRenderCommand, addPixelCommand, addScanCommand,
-                                               addAssertCommand, addLayersCommand};
+                                               addAssertCommand, addExportCommand, addLayersCommand,
+                                               addOutliersCommand, addStatsCommand, addDiffCommand};
     return kCommands;
 }
 

@@ -13,10 +13,10 @@
 namespace emca::analysis {
 namespace {
 
-constexpr double kBrightness = 0.85;             // t of [HDR] section 3.1
-constexpr double kLargestPixelsPerDegree = 1000; // filters are then some 300 pixels long
+constexpr double kBrightness = 0.85;              // t of [HDR] section 3.1
+constexpr double kLargestPixelsPerDegree = 1000;  // filters are then some 300 pixels long
 constexpr std::uint32_t kLargestCount = 1000;
-constexpr double kLargestExposure = 300;         // stops: more than floats have
+constexpr double kLargestExposure = 300;  // stops: more than floats have
 
 Color colorOf(const Image& image, Pixel p) {
     if (image.channelCount() >= 3) return image.color(p);
@@ -51,7 +51,8 @@ float featureDifference(float edge, float point, float referenceEdge, float refe
 }
 
 /// LDR-FLIP of what the screen shows at one exposure; each pixel keeps its largest difference.
-void compare(const Image& image, const Image& reference, const FlipFilters& filters, FlipRange range, double exposure, Image& error) {
+void compare(const Image& image, const Image& reference, const FlipFilters& filters, FlipRange range, double exposure,
+             Image& error) {
     PerceivedImage left(filters, image.width(), image.height(), shownRows(image, range, exposure));
     PerceivedImage right(filters, image.width(), image.height(), shownRows(reference, range, exposure));
     for (std::uint32_t y = 0; y < image.height(); ++y) {
@@ -70,24 +71,31 @@ void compare(const Image& image, const Image& reference, const FlipFilters& filt
 Result<void> check(const Image& image, const Image& reference, const FlipOptions& options) {
     if (image.width() != reference.width() || image.height() != reference.height())
         return Error{ErrorCode::invalidArgument,
-                     "The image has " + std::to_string(image.width()) + " x " + std::to_string(image.height()) + " pixels and its reference " +
-                         std::to_string(reference.width()) + " x " + std::to_string(reference.height()) + "; only images of the same size can be compared."};
+                     "The image has " + std::to_string(image.width()) + " x " + std::to_string(image.height()) +
+                         " pixels and its reference " + std::to_string(reference.width()) + " x " +
+                         std::to_string(reference.height()) + "; only images of the same size can be compared."};
     if (!(options.pixelsPerDegree > 0 && options.pixelsPerDegree <= kLargestPixelsPerDegree))
-        return Error{ErrorCode::invalidArgument, "FLIP was asked for a screen of " + formatNumber(options.pixelsPerDegree) +
-                                                     " pixels per degree; the number must be positive and at most " + formatNumber(kLargestPixelsPerDegree) + "."};
+        return Error{ErrorCode::invalidArgument, "FLIP was asked for a screen of " +
+                                                     formatNumber(options.pixelsPerDegree) +
+                                                     " pixels per degree; the number must be positive and at most " +
+                                                     formatNumber(kLargestPixelsPerDegree) + "."};
     if (options.exposures) {
         const FlipExposures& e = *options.exposures;
         const auto inside = [](double v) { return std::abs(v) <= kLargestExposure; };
         if (!inside(e.start) || !inside(e.stop) || e.count < 1 || e.count > kLargestCount)
-            return Error{ErrorCode::invalidArgument, "FLIP was asked for " + std::to_string(e.count) + " exposures from " + formatNumber(e.start) + " to " +
-                                                         formatNumber(e.stop) + " stops; 1 to 1000 exposures within 300 stops are possible."};
+            return Error{ErrorCode::invalidArgument, "FLIP was asked for " + std::to_string(e.count) +
+                                                         " exposures from " + formatNumber(e.start) + " to " +
+                                                         formatNumber(e.stop) +
+                                                         " stops; 1 to 1000 exposures within 300 stops are possible."};
     }
     return {};
 }
 
 }  // namespace
 
-double flipPixelsPerDegree(double distance, double width, double pixels) { return distance * pixels / width * std::numbers::pi / 180; }
+double flipPixelsPerDegree(double distance, double width, double pixels) {
+    return distance * pixels / width * std::numbers::pi / 180;
+}
 
 FlipExposures automaticExposures(const Image& reference) {
     std::vector<float> luminances;
@@ -133,7 +141,8 @@ Result<FlipResult> flip(const Image& image, const Image& reference, const FlipOp
     }
     for (std::uint32_t y = 0; y < image.height(); ++y)
         for (std::uint32_t x = 0; x < image.width(); ++x)
-            if (isNaN(colorOf(image, {x, y})) != isNaN(colorOf(reference, {x, y}))) *result.error.at({x, y}) = std::nanf("");
+            if (isNaN(colorOf(image, {x, y})) != isNaN(colorOf(reference, {x, y})))
+                *result.error.at({x, y}) = std::nanf("");
     return result;
 }
 

@@ -17,11 +17,13 @@ constexpr Matrix inverse(const Matrix& m) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
             out[j][i] = (m[(i + 1) % 3][(j + 1) % 3] * m[(i + 2) % 3][(j + 2) % 3] -
-                         m[(i + 1) % 3][(j + 2) % 3] * m[(i + 2) % 3][(j + 1) % 3]) / determinant;
+                         m[(i + 1) % 3][(j + 2) % 3] * m[(i + 2) % 3][(j + 1) % 3]) /
+                        determinant;
     return out;
 }
 
-/// Linear Rec. 709 to XYZ relative to white, from the chromaticities of primaries and white (ITU-R BT.709-6, section 1).
+/// Linear Rec. 709 to XYZ relative to white, from the chromaticities of primaries and white (ITU-R BT.709-6, section
+/// 1).
 constexpr Matrix relativeXyzOfRec709() {
     constexpr double kX[] = {0.64, 0.30, 0.15}, kY[] = {0.33, 0.60, 0.06}, kWhiteX = 0.3127, kWhiteY = 0.3290;
     constexpr std::array<double, 3> kWhite = {kWhiteX / kWhiteY, 1, (1 - kWhiteX - kWhiteY) / kWhiteY};
@@ -40,7 +42,9 @@ constexpr Matrix relativeXyzOfRec709() {
     return primaries;
 }
 
-struct Coefficients { float m[3][3]; };
+struct Coefficients {
+    float m[3][3];
+};
 constexpr Coefficients rounded(const Matrix& m) {
     Coefficients out{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -60,9 +64,9 @@ struct Aces {  // x (a x + b) / (x (c x + d) + e)
     static constexpr double a = 0.36 * 2.51, b = 0.6 * 0.03, c = 0.36 * 2.43, d = 0.6 * 0.59, e = 0.14;
 };
 
-constexpr float kExponent = 0.7f;           // q_c
-constexpr float kKnee = 0.4f;               // p_c
-constexpr float kKneeDifference = 0.95f;    // p_t
+constexpr float kExponent = 0.7f;         // q_c
+constexpr float kKnee = 0.4f;             // p_c
+constexpr float kKneeDifference = 0.95f;  // p_t
 
 }  // namespace
 

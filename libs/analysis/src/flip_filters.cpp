@@ -8,8 +8,11 @@ namespace emca::analysis {
 namespace {
 
 /// Parameters of contrast sensitivity in degrees ([LDR] table 1): a sqrt(pi / b) exp(-pi^2 x^2 / b).
-struct Sensitivity { double a, b; };
-constexpr Sensitivity kAchromaticSensitivity{1, 0.0047}, kRedGreenSensitivity{1, 0.0053}, kWideSensitivity{34.1, 0.04}, kNarrowSensitivity{13.5, 0.025};
+struct Sensitivity {
+    double a, b;
+};
+constexpr Sensitivity kAchromaticSensitivity{1, 0.0047}, kRedGreenSensitivity{1, 0.0053}, kWideSensitivity{34.1, 0.04},
+    kNarrowSensitivity{13.5, 0.025};
 /// Width of a feature in degrees ([LDR] section 4.2).
 constexpr double kFeatureWidth = 0.082;
 /// Weights below this share of the largest one are left out: less than what floats round.
@@ -38,7 +41,9 @@ std::vector<double> gaussian(double sigma, std::size_t radius) {
     return half;
 }
 
-double sigmaInPixels(const Sensitivity& s, double pixelsPerDegree) { return std::sqrt(s.b / 2) / std::numbers::pi * pixelsPerDegree; }
+double sigmaInPixels(const Sensitivity& s, double pixelsPerDegree) {
+    return std::sqrt(s.b / 2) / std::numbers::pi * pixelsPerDegree;
+}
 
 /// A pixel and those at distance 1, 2, … on both sides of it: of a row, or of rows above and below.
 struct Lines {
@@ -68,7 +73,8 @@ void filter(const Lines& lines, const HalfKernel& kernel, std::size_t width, flo
             for (std::size_t j = 0; j < count; ++j) {
                 if constexpr (!Odd) sum[j] = kernel[0] * lines.center[j];
                 for (std::size_t k = 1; k < taps; ++k)
-                    sum[j] += kernel[k] * (Odd ? lines.after[k][j] - lines.before[k][j] : lines.after[k][j] + lines.before[k][j]);
+                    sum[j] += kernel[k] *
+                              (Odd ? lines.after[k][j] - lines.before[k][j] : lines.after[k][j] + lines.before[k][j]);
             }
         }
         std::copy(sum, sum + count, out + first);
@@ -109,12 +115,21 @@ FlipFilters::FlipFilters(double pixelsPerDegree) {
     edge = scaled(first, sum > 0 ? 1 / sum : 0);
     for (double& v : second) v /= v > 0 ? positive : -negative;
     point = scaled(second, 1);
-    radius = std::max({achromatic.size(), redGreen.size(), blueYellowWide.size(), blueYellowNarrow.size(), smooth.size()}) - 1;
+    radius =
+        std::max({achromatic.size(), redGreen.size(), blueYellowWide.size(), blueYellowNarrow.size(), smooth.size()}) -
+        1;
 }
 
 PerceivedImage::PerceivedImage(const FlipFilters& filters, std::uint32_t width, std::uint32_t height, Source source)
-    : filters_(filters), width_(width), height_(height), slots_(2 * filters.radius + 1), source_(std::move(source)),
-      colors_(width), lines_(slots_ * kPlaneCount * width), before_(filters.radius + 1), after_(filters.radius + 1) {
+    : filters_(filters),
+      width_(width),
+      height_(height),
+      slots_(2 * filters.radius + 1),
+      source_(std::move(source)),
+      colors_(width),
+      lines_(slots_ * kPlaneCount * width),
+      before_(filters.radius + 1),
+      after_(filters.radius + 1) {
     for (auto& channel : padded_) channel.resize(width + 2 * filters.radius);
     for (auto& channel : columns_) channel.resize(width);
     row_.color.resize(width);
@@ -122,7 +137,9 @@ PerceivedImage::PerceivedImage(const FlipFilters& filters, std::uint32_t width, 
     row_.point.resize(width);
 }
 
-float* PerceivedImage::line(Plane plane, std::size_t y) { return &lines_[((y % slots_) * kPlaneCount + plane) * width_]; }
+float* PerceivedImage::line(Plane plane, std::size_t y) {
+    return &lines_[((y % slots_) * kPlaneCount + plane) * width_];
+}
 
 void PerceivedImage::load(std::uint32_t y) {
     source_(y, colors_);
@@ -175,7 +192,8 @@ const PerceivedRow& PerceivedImage::row(std::uint32_t y) {
     for (std::size_t x = 0; x < width_; ++x) {
         const float luma = achromatic[x], blueYellow = narrow[x] + filters_.wideShare * (wide[x] - narrow[x]);
         const Color seen = fromRelativeXyz({redGreen[x] + luma, luma, luma - blueYellow});
-        row_.color[x] = toHuntLab({std::clamp(seen.r, 0.f, 1.f), std::clamp(seen.g, 0.f, 1.f), std::clamp(seen.b, 0.f, 1.f)});
+        row_.color[x] =
+            toHuntLab({std::clamp(seen.r, 0.f, 1.f), std::clamp(seen.g, 0.f, 1.f), std::clamp(seen.b, 0.f, 1.f)});
     }
     const auto length = [&](std::vector<float>& out) {
         for (std::size_t x = 0; x < width_; ++x) out[x] = std::sqrt(first[x] * first[x] + second[x] * second[x]);

@@ -19,7 +19,8 @@ using HalfKernel = std::vector<float>;
 struct FlipFilters {
     explicit FlipFilters(double pixelsPerDegree);
 
-    // Contrast sensitivity ([LDR] section 4.1.1, table 1): Gaussians of the opponent channels; blue-yellow is the sum of two.
+    // Contrast sensitivity ([LDR] section 4.1.1, table 1): Gaussians of the opponent channels; blue-yellow is the sum
+    // of two.
     HalfKernel achromatic, redGreen, blueYellowWide, blueYellowNarrow;
     float wideShare = 1;  ///< of blue-yellow
     // Detection of features ([LDR] section 4.2): a Gaussian, its first and its second derivative.
@@ -29,8 +30,9 @@ struct FlipFilters {
 
 /// What one row of an image is to an eye.
 struct PerceivedRow {
-    std::vector<HuntLab> color;       ///< after contrast sensitivity, clipped to the screen
-    std::vector<float> edge, point;   ///< lengths of gradient and of second derivative of the achromatic channel, in [0, √2]
+    std::vector<HuntLab> color;  ///< after contrast sensitivity, clipped to the screen
+    std::vector<float> edge,
+        point;  ///< lengths of gradient and of second derivative of the achromatic channel, in [0, √2]
 };
 
 /// Filters an image row by row; keeps as many rows as the longest filter is long. Beyond its borders an image continues
@@ -54,9 +56,9 @@ class PerceivedImage {
     std::size_t slots_;
     Source source_;
     std::vector<Color> colors_;
-    std::vector<float> padded_[3];    // opponent channels of the row that is being loaded
-    std::vector<float> lines_;        // row-filtered planes of `slots_` rows
-    std::vector<float> columns_[6];   // of the row that is being answered
+    std::vector<float> padded_[3];   // opponent channels of the row that is being loaded
+    std::vector<float> lines_;       // row-filtered planes of `slots_` rows
+    std::vector<float> columns_[6];  // of the row that is being answered
     std::vector<const float*> before_, after_;
     PerceivedRow row_;
 };

@@ -18,7 +18,8 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 const FlipOptions kLow{.range = FlipRange::low};
 
-Image drawn(std::uint32_t width, std::uint32_t height, const std::function<Color(std::uint32_t, std::uint32_t)>& color) {
+Image drawn(std::uint32_t width, std::uint32_t height,
+            const std::function<Color(std::uint32_t, std::uint32_t)>& color) {
     Image image(width, height);
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x) image.setColor({x, y}, color(x, y));
@@ -70,14 +71,15 @@ TEST(FlipColor, ToneMapperAndItsInverse) {
 TEST(FlipFilters, PassConstantsAndMeasureSteps) {
     for (const double ppd : {0.5, 10.0, 67.02, 300.0}) {
         const FlipFilters filters(ppd);
-        for (const HalfKernel* kernel : {&filters.achromatic, &filters.redGreen, &filters.blueYellowWide, &filters.blueYellowNarrow, &filters.smooth}) {
+        for (const HalfKernel* kernel : {&filters.achromatic, &filters.redGreen, &filters.blueYellowWide,
+                                         &filters.blueYellowNarrow, &filters.smooth}) {
             double sum = static_cast<double>((*kernel)[0]);
             for (std::size_t k = 1; k < kernel->size(); ++k) sum += 2 * static_cast<double>((*kernel)[k]);
             EXPECT_NEAR(sum, 1, 1e-6) << ppd;
         }
     }
-    // Radii and shares at the papers' screen, worked out by hand: 3 sqrt(0.04 / 2) / pi degrees and 3 * 0.041 degrees; the
-    // sums of the two Gaussians are a sqrt(pi / b) * pi * b, so that they are to each other as a sqrt(b).
+    // Radii and shares at the papers' screen, worked out by hand: 3 sqrt(0.04 / 2) / pi degrees and 3 * 0.041 degrees;
+    // the sums of the two Gaussians are a sqrt(pi / b) * pi * b, so that they are to each other as a sqrt(b).
     const FlipFilters filters(flipPixelsPerDegree(0.7, 0.7, 3840));
     EXPECT_EQ(filters.blueYellowWide.size(), 11u);
     EXPECT_EQ(filters.smooth.size(), 10u);
@@ -113,7 +115,8 @@ TEST(FlipFilters, EqualTheSquareFilter) {
         for (std::uint32_t y = 0; y < height; ++y) {
             const PerceivedRow& row = perceived.row(y);
             for (std::uint32_t x = 0; x < width; ++x) {
-                double grey = 0, greySum = 0, edgeX = 0, edgeY = 0, edgeSum = 0, positiveX = 0, negativeX = 0, positive = 0, negative = 0;
+                double grey = 0, greySum = 0, edgeX = 0, edgeY = 0, edgeSum = 0, positiveX = 0, negativeX = 0,
+                       positive = 0, negative = 0;
                 double positiveY = 0, negativeY = 0;
                 for (std::ptrdiff_t v = -r; v <= r; ++v)
                     for (std::ptrdiff_t u = -r; u <= r; ++u) {
@@ -122,7 +125,8 @@ TEST(FlipFilters, EqualTheSquareFilter) {
                         grey += csf * value;
                         greySum += csf;
                         if (std::max(std::abs(u), std::abs(v)) > 4) continue;  // 3 sigma
-                        const double g = std::exp(-square / (2 * sigma * sigma)), du = static_cast<double>(u), dv = static_cast<double>(v);
+                        const double g = std::exp(-square / (2 * sigma * sigma)), du = static_cast<double>(u),
+                                     dv = static_cast<double>(v);
                         edgeX += du * g * value;
                         edgeY += dv * g * value;
                         edgeSum += std::max(0.0, du * g);
@@ -132,7 +136,10 @@ TEST(FlipFilters, EqualTheSquareFilter) {
                         (pu > 0 ? positive : negative) += pu;
                     }
                 EXPECT_NEAR(row.edge[x], std::hypot(edgeX, edgeY) / edgeSum, 1e-5);
-                EXPECT_NEAR(row.point[x], std::hypot(positiveX / positive - negativeX / negative, positiveY / positive - negativeY / negative), 1e-5);
+                EXPECT_NEAR(row.point[x],
+                            std::hypot(positiveX / positive - negativeX / negative,
+                                       positiveY / positive - negativeY / negative),
+                            1e-5);
                 EXPECT_NEAR(row.color[x].l, 116 * std::cbrt(grey / greySum) - 16, 2e-3) << x << " " << y;
             }
         }
@@ -161,8 +168,8 @@ TEST(Flip, IsSymmetricAndWithinZeroAndOne) {
     }
 }
 
-/// Flat images have no features and pass all filters, so that the difference follows from two numbers: HyAB is 100 between
-/// black and white, and 203.30 (from CIELAB of textbooks) between the screen's green and blue.
+/// Flat images have no features and pass all filters, so that the difference follows from two numbers: HyAB is 100
+/// between black and white, and 203.30 (from CIELAB of textbooks) between the screen's green and blue.
 TEST(Flip, BlackAgainstWhiteByHand) {
     const double largest = std::pow(203.30, 0.7), knee = 0.4 * largest;
     const double expected = 0.95 + 0.05 * (std::pow(100, 0.7) - knee) / (largest - knee);
@@ -170,14 +177,16 @@ TEST(Flip, BlackAgainstWhiteByHand) {
     EXPECT_NEAR(at(errorOf(filled({1, 1, 1}), filled({0, 0, 0}), kLow), 3, 3), expected, 2e-5);
     EXPECT_NEAR(at(errorOf(filled({0, 1, 0}), filled({0, 0, 1}), kLow), 3, 3), 1, 1e-6);
     // A small difference is on the lower line: L* of 0.5 is 76.07.
-    EXPECT_NEAR(at(errorOf(filled(Color(0.5f)), filled({1, 1, 1}), kLow), 3, 3), 0.95 * std::pow(100 - 76.0693, 0.7) / knee, 5e-5);
+    EXPECT_NEAR(at(errorOf(filled(Color(0.5f)), filled({1, 1, 1}), kLow), 3, 3),
+                0.95 * std::pow(100 - 76.0693, 0.7) / knee, 5e-5);
 }
 
 /// What the authors' own program (version 1.6) says of the same images.
 TEST(Flip, EqualsThePublishedImplementation) {
     const auto pattern = [](bool changed, bool high) {
         return drawn(48, 32, [=](std::uint32_t x, std::uint32_t y) {
-            Color c(static_cast<float>(x) / 47, static_cast<float>((x / 6 + y / 4) % 2) * 0.75f + 0.125f, static_cast<float>((x * 37 + y * 101) % 64) / 63);
+            Color c(static_cast<float>(x) / 47, static_cast<float>((x / 6 + y / 4) % 2) * 0.75f + 0.125f,
+                    static_cast<float>((x * 37 + y * 101) % 64) / 63);
             if (changed) {
                 c.r *= 0.875f;
                 if ((x + 3 * y) % 29 == 0) c = {1, 0.25f, 0};
@@ -206,7 +215,9 @@ TEST(Flip, EqualsThePublishedImplementation) {
 }
 
 TEST(Flip, AnEdgeThatMovedByAPixelIsSeenThereAndNowhereElse) {
-    const auto edge = [](std::uint32_t column) { return drawn(64, 16, [column](std::uint32_t x, auto) { return Color(x < column ? 0.f : 1.f); }); };
+    const auto edge = [](std::uint32_t column) {
+        return drawn(64, 16, [column](std::uint32_t x, auto) { return Color(x < column ? 0.f : 1.f); });
+    };
     const Image error = errorOf(edge(32), edge(33), kLow);
     float largest = 0;
     for (std::uint32_t x = 29; x < 36; ++x) largest = std::max(largest, at(error, x, 8));
@@ -224,11 +235,13 @@ TEST(Flip, AnEdgeThatMovedByAPixelIsSeenThereAndNowhereElse) {
 }
 
 TEST(Flip, FinePatternsVanishWithDistance) {
-    const Image checkers = drawn(96, 96, [](std::uint32_t x, std::uint32_t y) { return Color((x + y) % 2 == 0 ? 0.4f : 0.6f); });
+    const Image checkers =
+        drawn(96, 96, [](std::uint32_t x, std::uint32_t y) { return Color((x + y) % 2 == 0 ? 0.4f : 0.6f); });
     const Image grey = drawn(96, 96, [](auto, auto) { return Color(0.5f); });
     float before = 1;
     for (const double ppd : {20.0, 30.0, 45.0, 67.0}) {
-        const float inside = at(errorOf(checkers, grey, {.range = FlipRange::low, .pixelsPerDegree = ppd}), 48, 48);  // far from borders
+        const float inside =
+            at(errorOf(checkers, grey, {.range = FlipRange::low, .pixelsPerDegree = ppd}), 48, 48);  // far from borders
         EXPECT_LT(inside, before) << ppd;
         before = inside;
     }
@@ -246,7 +259,8 @@ TEST(Flip, HighRangeKnowsNoUnit) {
     ASSERT_TRUE(one.ok() && other.ok());
     EXPECT_NEAR(one->exposures.start, other->exposures.start + 6, 1e-12);
     EXPECT_EQ(one->exposures.count, other->exposures.count);
-    for (std::size_t i = 0; i < one->error.size(); ++i) EXPECT_NEAR(one->error.data()[i], other->error.data()[i], 1e-5f);
+    for (std::size_t i = 0; i < one->error.size(); ++i)
+        EXPECT_NEAR(one->error.data()[i], other->error.data()[i], 1e-5f);
 }
 
 TEST(Flip, HighRangeIsTheLargestOfItsExposures) {
@@ -254,14 +268,17 @@ TEST(Flip, HighRangeIsTheLargestOfItsExposures) {
     const FlipExposures all{-4, 2, 3};
     const Image error = errorOf(a, b, {.exposures = all});
     std::vector<Image> single;
-    for (std::uint32_t i = 0; i < 3; ++i) single.push_back(errorOf(a, b, {.exposures = FlipExposures{all.at(i), all.at(i), 1}}));
+    for (std::uint32_t i = 0; i < 3; ++i)
+        single.push_back(errorOf(a, b, {.exposures = FlipExposures{all.at(i), all.at(i), 1}}));
     for (std::size_t i = 0; i < error.size(); ++i)
         EXPECT_EQ(error.data()[i], std::max({single[0].data()[i], single[1].data()[i], single[2].data()[i]}));
 }
 
 TEST(Flip, ExposuresByTheRuleOfThePaper) {
     // The brightest pixel and the median (of an even number of pixels the larger one) come out at 0.85.
-    const Image image = drawn(4, 1, [](std::uint32_t x, auto) { return Color(x == 3 ? 600.f : std::exp2(static_cast<float>(x * x))); });  // 1, 2, 16, 600
+    const Image image = drawn(4, 1, [](std::uint32_t x, auto) {
+        return Color(x == 3 ? 600.f : std::exp2(static_cast<float>(x * x)));
+    });  // 1, 2, 16, 600
     const FlipExposures e = automaticExposures(image);
     EXPECT_NEAR(acesToneMap(static_cast<float>(std::exp2(e.start) * 600)), 0.85, 1e-5);
     EXPECT_NEAR(acesToneMap(static_cast<float>(std::exp2(e.stop) * 16)), 0.85, 1e-5);
@@ -300,8 +317,10 @@ TEST(Flip, GreyIsThreeEqualChannels) {
 TEST(Flip, RefusesNonsense) {
     const Image image = filled({1, 1, 1});
     EXPECT_FALSE(flip(image, Image(3, 4)).ok());
-    for (const double ppd : {0.0, -1.0, 1e9, static_cast<double>(kNaN)}) EXPECT_FALSE(flip(image, image, {.pixelsPerDegree = ppd}).ok());
-    for (const FlipExposures& e : {FlipExposures{0, 0, 0}, FlipExposures{0, 1e9, 2}, FlipExposures{static_cast<double>(kNaN), 0, 2}, FlipExposures{0, 1, 100000}})
+    for (const double ppd : {0.0, -1.0, 1e9, static_cast<double>(kNaN)})
+        EXPECT_FALSE(flip(image, image, {.pixelsPerDegree = ppd}).ok());
+    for (const FlipExposures& e : {FlipExposures{0, 0, 0}, FlipExposures{0, 1e9, 2},
+                                   FlipExposures{static_cast<double>(kNaN), 0, 2}, FlipExposures{0, 1, 100000}})
         EXPECT_FALSE(flip(image, image, {.exposures = e}).ok());
     EXPECT_TRUE(flip(Image(), Image()).ok());
 }

@@ -11,7 +11,9 @@ namespace {
 struct Candidate {
     double value;
     Index index;
-    friend bool operator<(const Candidate& a, const Candidate& b) { return a.value != b.value ? a.value < b.value : a.index < b.index; }
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+        return a.value != b.value ? a.value < b.value : a.index < b.index;
+    }
 };
 
 /// Number, mean and sum of squared deviations of some values.
@@ -34,11 +36,11 @@ Moments merged(const Moments& a, const Moments& b) {
     return {count, a.mean + delta * b.count / count, a.squares + b.squares + delta * delta * a.count * b.count / count};
 }
 
-/// What is left of the values while extremes are taken away. The farthest value from a mean is the smallest or the largest,
-/// so only the r smallest and the r largest can ever go. Taking a value out of a sum of squares that it dominates (a
-/// firefly is a million times the rest) would leave rounding errors only. Therefore nothing is subtracted: the core that
-/// always stays is summed once, the r values at each end are added from the inside outwards, and every intermediate sum
-/// is kept. What is left after any step is the core and one such sum from each end.
+/// What is left of the values while extremes are taken away. The farthest value from a mean is the smallest or the
+/// largest, so only the r smallest and the r largest can ever go. Taking a value out of a sum of squares that it
+/// dominates (a firefly is a million times the rest) would leave rounding errors only. Therefore nothing is subtracted:
+/// the core that always stays is summed once, the r values at each end are added from the inside outwards, and every
+/// intermediate sum is kept. What is left after any step is the core and one such sum from each end.
 class Remaining {
   public:
     /// \param r  how many can be taken away; 2 r < size
@@ -78,10 +80,10 @@ class Remaining {
     }
 
   private:
-    std::vector<Candidate> values_;            // sorted before low_ and from high_ on
+    std::vector<Candidate> values_;  // sorted before low_ and from high_ on
     std::size_t begin_ = 0, low_ = 0, high_ = 0, end_ = 0;
     Moments core_;
-    std::vector<Moments> lows_, highs_;        // of the k values at either end that are nearest to the core
+    std::vector<Moments> lows_, highs_;  // of the k values at either end that are nearest to the core
     double smallestOfCore_ = 0, largestOfCore_ = 0;
 };
 
@@ -98,8 +100,10 @@ OutlierReport generalizedEsd(std::span<const double> values, const OutlierOption
     std::vector<Candidate> finite;
     finite.reserve(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::isfinite(values[i])) finite.push_back({values[i], static_cast<Index>(i)});
-        else report.outliers.push_back(static_cast<Index>(i));
+        if (std::isfinite(values[i]))
+            finite.push_back({values[i], static_cast<Index>(i)});
+        else
+            report.outliers.push_back(static_cast<Index>(i));
     }
     const std::size_t n = finite.size();
     report.considered = n;
@@ -122,7 +126,8 @@ OutlierReport generalizedEsd(std::span<const double> values, const OutlierOption
         const Moments moments = remaining.moments();
         const Candidate farthest = remaining.takeFarthest(moments.mean);
         const double deviation = moments.deviation();
-        report.steps.push_back({farthest.index, farthest.value, moments.mean, deviation, std::abs(farthest.value - moments.mean) / deviation,
+        report.steps.push_back({farthest.index, farthest.value, moments.mean, deviation,
+                                std::abs(farthest.value - moments.mean) / deviation,
                                 esdCritical(n, i, options.significance, options.upperOnly)});
         if (!report.steps.back().significant()) continue;
         found = i;

@@ -41,7 +41,9 @@ TEST(StudentT, QuantilesOfTextbooks) {
 }
 
 TEST(GeneralizedEsd, IsTheTableOfTheNistHandbook) {
-    struct Row { double statistic, critical; };
+    struct Row {
+        double statistic, critical;
+    };
     // The handbook cuts after the third decimal.
     constexpr Row kTable[] = {{3.118, 3.158}, {2.942, 3.151}, {3.179, 3.143}, {2.810, 3.136}, {2.815, 3.128},
                               {2.848, 3.120}, {2.279, 3.111}, {2.310, 3.103}, {2.101, 3.094}, {2.067, 3.085}};
@@ -62,8 +64,8 @@ TEST(GeneralizedEsd, IsTheTableOfTheNistHandbook) {
     EXPECT_TRUE(detectOutliers(kRosner, {.deviations = 3.2})->outliers.empty());
 }
 
-/// US EPA, "Statistical Analysis of Groundwater Monitoring Data at RCRA Facilities", 2009, example 12-4: naphthalene, in
-/// full as published for R's EnvStats.
+/// US EPA, "Statistical Analysis of Groundwater Monitoring Data at RCRA Facilities", 2009, example 12-4: naphthalene,
+/// in full as published for R's EnvStats.
 TEST(GeneralizedEsd, IsTheExampleOfTheEpa) {
     const Values naphthalene = {3.34, 5.39, 5.74, 6.88, 5.85, 5.59, 5.96, 1.47, 2.57, 5.39, 1.91, 1.74, 23.23,
                                 1.82, 2.02, 6.12, 6.05, 5.18, 4.43, 1.00, 8.64, 5.34, 5.53, 4.42, 35.45};
@@ -91,7 +93,10 @@ TEST(GeneralizedEsd, CriticalValuesAreRosnersTable) {
     EXPECT_EQ(esdCritical(25, 3, 0.025, true), esdCritical(25, 3, 0.05, false));
 }
 
-struct Plain { std::vector<Index> order; Values statistics; };
+struct Plain {
+    std::vector<Index> order;
+    Values statistics;
+};
 
 /// Everything again at each step, as the paper writes it.
 Plain plainSteps(const Values& values, std::size_t r) {
@@ -108,7 +113,8 @@ Plain plainSteps(const Values& values, std::size_t r) {
             return std::abs(values[a] - mean) < std::abs(values[b] - mean);
         });
         plain.order.push_back(*farthest);
-        plain.statistics.push_back(static_cast<double>(std::abs(values[*farthest] - mean) / std::sqrt(squares / static_cast<long double>(left.size() - 1))));
+        plain.statistics.push_back(static_cast<double>(std::abs(values[*farthest] - mean) /
+                                                       std::sqrt(squares / static_cast<long double>(left.size() - 1))));
         left.erase(farthest);
     }
     return plain;
@@ -122,9 +128,12 @@ TEST(GeneralizedEsd, EqualsComputingEverythingAgain) {
         Values values(n);
         for (double& v : values) v = normal(random);
         // Fireflies up to a million times the rest, at either end, and a few values that are no numbers.
-        for (std::size_t k = 0; k < n / 20; ++k) values[random() % n] = std::exp2(static_cast<double>(random() % 40) - 10) * (random() % 3 == 0 ? -1 : 1) * normal(random);
+        for (std::size_t k = 0; k < n / 20; ++k)
+            values[random() % n] =
+                std::exp2(static_cast<double>(random() % 40) - 10) * (random() % 3 == 0 ? -1 : 1) * normal(random);
         if (trial % 3 == 0) values[random() % n] = kNaN;
-        const std::size_t finite = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); }));
+        const std::size_t finite = static_cast<std::size_t>(
+            std::count_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); }));
         const std::size_t r = 1 + random() % 40;
         const OutlierReport report = esd(values, r, 0.05);
         const std::size_t steps = std::min(r, (finite - 1) / 2);
@@ -229,7 +238,8 @@ TEST(GeneralizedEsd, NamesPositionsInThePathSet) {
 
 TEST(GeneralizedEsd, RefusesNonsense) {
     for (const double alpha : {0.0, -1.0, 1.0, kNaN}) {
-        const auto report = detectOutliers(Values{1, 2}, {.method = OutlierMethod::generalizedEsd, .significance = alpha});
+        const auto report =
+            detectOutliers(Values{1, 2}, {.method = OutlierMethod::generalizedEsd, .significance = alpha});
         ASSERT_FALSE(report.ok());
         EXPECT_EQ(report.error().code, ErrorCode::invalidArgument);
     }

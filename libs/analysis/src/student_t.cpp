@@ -7,9 +7,11 @@ namespace {
 
 namespace policies = boost::math::policies;
 /// Nothing is thrown: what cannot be computed is NaN or infinite.
-using Policy = policies::policy<policies::promote_double<false>, policies::domain_error<policies::errno_on_error>,
-                                policies::pole_error<policies::errno_on_error>, policies::overflow_error<policies::errno_on_error>,
-                                policies::rounding_error<policies::errno_on_error>, policies::evaluation_error<policies::errno_on_error>>;
+using Policy =
+    policies::policy<policies::promote_double<false>, policies::domain_error<policies::errno_on_error>,
+                     policies::pole_error<policies::errno_on_error>, policies::overflow_error<policies::errno_on_error>,
+                     policies::rounding_error<policies::errno_on_error>,
+                     policies::evaluation_error<policies::errno_on_error>>;
 
 }  // namespace
 

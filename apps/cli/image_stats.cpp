@@ -1,0 +1,115 @@
+#include "image_stats.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "command.h"
+#include "csv.h"
+#include "emca/analysis/format.h"
+#include "emca/analysis/image_metrics.h"
+#include "emca/imageio/imageio.h"
+#include "json.h"
+#include "table.h"
+
+namespace emca::cli {
+namespace {
+
+using analysis::ChannelStatistics;
+using analysis::FaultyPixel;
+using analysis::formatFull;
+using analysis::formatNumber;
+using analysis::PixelFault;
+
+constexpr std::size_t kShownFaults = 10;
+
+struct ImageStats {
+    std::string file;
+    std::uint32_t width = 0, height = 0;
+    std::vector<ChannelStatistics> channels;
+    std::vector<FaultyPixel> faults;
+};
+
+const char* word(PixelFault fault) {
+    return fault == PixelFault::nan ? "NaN" : fault == PixelFault::infinite ? "infinite" : "negative";
+}
+
+std::string statsText(const ImageStats& stats) {
+    std::string text = fmt::format("{}: {} x {} pixels\n\n", printable(stats.file), stats.width, stats.height);
+    Table table({{"channel", Table::Align::left},
+                 {"min"},
+                 {"mean"},
+                 {"max"},
+                 {"deviation"},
+                 {"variance"},
+                 {"NaN"},
+                 {"infinite"},
+                 {"negative"}});
+    for (const auto& [channel, s, negative] : stats.channels)
+        table.add({channel, formatNumber(s.min), formatNumber(s.mean), formatNumber(s.max), formatNumber(s.deviation()),
+                   formatNumber(s.variance), std::to_string(s.nan),
+                   std::to_string(s.positiveInfinite + s.negativeInfinite), std::to_string(negative)});
+    text += table.text();
+    if (stats.faults.empty()) return text;
+    text += fmt::format("\n{} faulty pixels:", stats.faults.size());
+    for (std::size_t i = 0; i < std::min(stats.faults.size(), kShownFaults); ++i)
+        text += fmt::format("{} {} {}", i > 0 ? "," : "", analysis::formatPixel(stats.faults[i].pixel),
+                            word(stats.faults[i].fault));
+    return text + (stats.faults.size() > kShownFaults ? ", …\n" : "\n");
+}
+
+Json statsJson(const ImageStats& stats) {
+    Json out;
+    out["image"] = stats.file;
+    out["width"] = stats.width;
+    out["height"] = stats.height;
+    out["channels"] = Json::array();
+    for (const auto& [channel, s, negative] : stats.channels) {
+        Json one;
+        one["channel"] = channel;
+        one["min"] = toJson(s.min);
+        one["max"] = toJson(s.max);
+        one["mean"] = toJson(s.mean);
+        one["variance"] = toJson(s.variance);
+        one["finite"] = s.finite;
+        one["nan"] = s.nan;
+        one["positiveInfinite"] = s.positiveInfinite;
+        one["negativeInfinite"] = s.negativeInfinite;
+        one["negative"] = negative;
+        out["channels"].push_back(std::move(one));
+    }
+    out["faultyPixels"] = stats.faults.size();
+    out["faults"] = Json::array();
+    for (std::size_t i = 0; i < std::min(stats.faults.size(), kShownFaults); ++i) {
+        Json one;
+        one["pixel"] = toJson(stats.faults[i].pixel);
+        one["fault"] = word(stats.faults[i].fault);
+        out["faults"].push_back(std::move(one));
+    }
+    return out;
+}
+
+std::string statsCsv(const ImageStats& stats) {
+    std::string text = csvLine({"channel", "min", "max", "mean", "variance", "finite", "nan", "positiveInfinite",
+                                "negativeInfinite", "negative"});
+    for (const auto& [channel, s, negative] : stats.channels)
+        text += csvLine({channel, formatFull(s.min), formatFull(s.max), formatFull(s.mean), formatFull(s.variance),
+                         std::to_string(s.finite), std::to_string(s.nan), std::to_string(s.positiveInfinite),
+                         std::to_string(s.negativeInfinite), std::to_string(negative)});
+    return text;
+}
+
+}  // namespace
+
+int printImageStats(const std::string& file, StatsFormat format) {
+    const Result<Image> image = imageio::read(file);
+    if (!image) return fail(image.error());
+    ImageStats stats{file, image->width(), image->height(), analysis::imageStatistics(*image),
+                     analysis::faultyPixels(*image, std::numeric_limits<std::size_t>::max())};
+    fmt::print("{}", format == StatsFormat::json  ? dump(statsJson(stats))
+                     : format == StatsFormat::csv ? statsCsv(stats)
+                                                  : statsText(stats));
+    return Exit::ok;
+}
+
+}  // namespace emca::cli
