@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "command.h"
+#include "csv.h"
 #include "progress_bar.h"
 
 namespace emca::cli {
@@ -56,6 +57,23 @@ TEST(Arguments, Lists) {
     EXPECT_EQ(splitList("path depth, MIS weight ,b"), (Words{"path depth", "MIS weight", "b"}));
     EXPECT_EQ(splitList(""), Words{});
     EXPECT_EQ(splitList(", ,a,"), Words{"a"});
+}
+
+TEST(ParseReal, TakesFiniteNumbersOfARange) {
+    EXPECT_EQ(*parseReal("--alpha", "0.05", 0, 1), 0.05);
+    EXPECT_EQ(*parseReal("--alpha", "1e-3", 0, 1), 1e-3);
+    EXPECT_EQ(*parseReal("--alpha", "1", 0, 1), 1);
+    for (const char* text : {"", " 1", "1 ", "0,5", "1.1", "-0.1", "nan", "inf", "0x1", "one"}) {
+        const auto number = parseReal("--alpha", text, 0, 1);
+        ASSERT_FALSE(number.ok()) << text;
+        EXPECT_NE(number.error().message.find("--alpha"), std::string::npos);
+    }
+}
+
+TEST(CsvLine, QuotesWhatNeedsIt) {
+    EXPECT_EQ(csvLine({"a", "", "1.5"}), "a,,1.5\n");
+    EXPECT_EQ(csvLine({"a,b", "say \"hi\"", "two\nlines"}), "\"a,b\",\"say \"\"hi\"\"\",\"two\nlines\"\n");
+    EXPECT_EQ(csvLine({}), "\n");
 }
 
 }  // namespace

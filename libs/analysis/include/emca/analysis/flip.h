@@ -52,7 +52,7 @@ FlipExposures automaticExposures(const Image& reference);
 /// Compares two images of linear Rec. 709 (grey, if they have fewer than three channels). Low is symmetric in its
 /// arguments; high is not if the exposures come from the reference. Negative values count as 0, infinite ones as white.
 /// A pixel that is NaN in one image only is NaN in the result; for its neighbours NaN counts as black.
-/// 1920x1080 takes some 0.5 s per exposure on one thread, and memory for the result besides a few dozen rows.
+/// 1920x1080 takes some 0.4 s per exposure on one thread, and memory for the result besides a few dozen rows.
 /// Errors: invalidArgument (sizes differ; pixelsPerDegree, exposures out of range).
 Result<FlipResult> flip(const Image& image, const Image& reference, const FlipOptions& options = {});
 
