@@ -22,7 +22,7 @@ function fact(name, value) {
 function fillHeader({ json }) {
   const { pixel } = json;
   byId("title").textContent = printable(json.title);
-  const facts = [["pixel", formatValue(pixel.pixel)], ["spp", pixel.spp], ["seed", pixel.seed], ["integrator", pixel.integrator], ["sampler", pixel.sampler], ["renderer", json.renderer], ["where", json.query]];
+  const facts = [["pixel", json.title.includes(formatValue(pixel.pixel)) ? "" : formatValue(pixel.pixel)], ["spp", pixel.spp], ["seed", pixel.seed], ["integrator", pixel.integrator], ["sampler", pixel.sampler], ["renderer", json.renderer], ["where", json.query]];
   byId("facts").append(...facts.filter(([, value]) => value !== null && value !== "").map(([name, value]) => fact(name, String(value))));
   byId("pixel-color").append(swatch(pixel.replay.replayed), element("span", "", pixel.replay.replayed.map((v) => formatNumber(toNumber(v))).join("  ")));
   const verdict = byId("verdict");

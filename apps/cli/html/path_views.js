@@ -1,6 +1,6 @@
 // The selected path: its vertices, and every value that was recorded at one of them or for the path.
 import { byId, element, numberElement, swatch } from "./elements.js";
-import { formatNumber, formatValue, printable, toNumber } from "./format.js";
+import { formatValue, printable } from "./format.js";
 
 const isNumber = (value) => typeof value === "number" || (typeof value === "string" && /^(NaN|-?Infinity)$/.test(value));
 
@@ -26,7 +26,7 @@ function valueElement(value, isColor) {
     numbers.append(...value.map((v) => numberElement(v)));
     cell.append(numbers);
     if (isColor) cell.append(swatch(value));
-  } else cell.append(formatValue(value));
+  } else cell.append(element("span", "text", formatValue(value)));
   return cell;
 }
 
@@ -131,7 +131,7 @@ export class PathViews {
 
   item(index, label, what, estimate) {
     const item = element("div", "item", element("span", "number", label), what);
-    if (estimate) item.append(element("span", "muted", estimate.map((v) => formatNumber(toNumber(v))).join("  ")), swatch(estimate));
+    if (estimate) item.append(element("span", "estimate muted", ...estimate.map((v) => numberElement(v))), swatch(estimate));
     item.dataset.vertex = index;
     item.id = "vertex-" + index;
     item.setAttribute("role", "option");

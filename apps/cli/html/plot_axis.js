@@ -1,6 +1,8 @@
 // Where values lie on an axis, and its drawing. Ranges and ticks come with the data: analysis has made them.
 import { toNumber } from "./format.js";
 
+const kLabelHeight = 14;
+
 /** 0 at the range's begin, 1 at its end, beyond outside; NaN for what is none, -Infinity for values <= 0 on a logarithmic one. */
 export function axisPosition(value, [min, max], log) {
   if (!log) return (value - min) / (max - min);
@@ -35,10 +37,13 @@ export class Frame {
     context.fillStyle = colors.muted;
     context.textBaseline = "middle";
     context.textAlign = "right";
+    let last = Infinity;
     for (const [value, text] of this.y.ticks) {
       const y = Math.round(this.toY(toNumber(value))) + 0.5;
       if (text) this.line(context, left, y, left + width, y);
-      if (text) context.fillText(text, left - 6, y);
+      if (!text || last - y < kLabelHeight) continue;  // where there is little room, not every tick is named
+      context.fillText(text, left - 6, y);
+      last = y;
     }
     context.textBaseline = "top";
     context.textAlign = "center";

@@ -1,7 +1,7 @@
 // Plots of what each path contributes: luminance, red green blue, depth. A point is a path; the selected one is on top.
 import { byId, themeColor } from "./elements.js";
 import { formatNumber, toNumber } from "./format.js";
-import { Frame } from "./plot_axis.js";
+import { Frame, axisPosition } from "./plot_axis.js";
 
 const kReach = 10;
 
@@ -66,9 +66,9 @@ class Plot {
       const value = quantity.values[path], number = toNumber(value);
       if (value === null || Number.isNaN(number)) return;
       const x = frame.toX(paths[path].json.sample), y = frame.toY(number);
-      if (!labelsBelow || this.targets.length < 1e6) this.targets.push({ x, y, path });
+      this.targets.push({ x, y, path });
       context.beginPath();
-      if (axis.above.includes(path)) this.triangle(context, x, y + 4, radius * 1.5);
+      if (axis.above.includes(path)) this.triangle(context, x, y + 2, radius * 1.4);
       else context.arc(x, y, radius, 0, 2 * Math.PI);
       context.fillStyle = fill;
       context.fill();
@@ -96,7 +96,15 @@ class Plot {
 
   /** Where the pixel's value is: the mean of what is shown. */
   mean(context, quantity, frame, colors) {
-    const { box } = frame, y = frame.toY(toNumber(quantity.mean));
+    const { box } = frame, value = toNumber(quantity.mean), y = frame.toY(value);
+    if (axisPosition(value, frame.y.range, frame.y.log) > 1) {
+      context.font = "11px " + colors.sans;
+      context.fillStyle = colors.muted;
+      context.textAlign = "right";
+      context.textBaseline = "middle";
+      context.fillText("↑ mean " + formatNumber(value), box.left + box.width, box.top - 1);
+      return;
+    }
     context.strokeStyle = colors.muted;
     context.setLineDash([4, 4]);
     frame.line(context, box.left, y, box.left + box.width, y);
@@ -111,7 +119,7 @@ class Plot {
     context.font = "600 11.5px " + colors.sans;
     const width = context.measureText(text).width, { box } = frame;
     const x = frame.toX(this.data.paths[path].json.sample), right = x + 12 + width < box.left + box.width;
-    const y = Math.max(Number.isNaN(number) ? box.top + 8 : frame.toY(number), box.top + 8);
+    const y = Math.max(Number.isNaN(number) ? box.top : frame.toY(number), box.top + 1);
     context.textBaseline = "middle";
     context.textAlign = right ? "left" : "right";
     context.lineWidth = 3;
@@ -125,7 +133,7 @@ class Plot {
 
 export class LuminancePlot extends Plot {
   paint(context, width, height, colors) {
-    const box = { left: 46, top: 10, width: width - 56, height: height - 46 };
+    const box = { left: 46, top: 12, width: width - 56, height: height - 48 };
     this.scatter(context, this.data.analysis.luminance, colors.data, box, colors, true);
     sampleLabel(context, box, colors);
   }
@@ -133,9 +141,9 @@ export class LuminancePlot extends Plot {
 
 export class RgbPlot extends Plot {
   paint(context, width, height, colors) {
-    const each = (height - 36) / 3;
+    const each = (height - 34) / 3;
     ["red", "green", "blue"].forEach((name, i) => {
-      const box = { left: 46, top: 10 + i * each, width: width - 56, height: each - 16 };
+      const box = { left: 46, top: 12 + i * each, width: width - 56, height: each - 17 };
       this.scatter(context, this.data.analysis[name], colors[name], box, colors, i === 2);
       if (i === 2) sampleLabel(context, box, colors);
     });
@@ -152,7 +160,7 @@ function sampleLabel(context, box, colors) {
 
 export class DepthPlot extends Plot {
   paint(context, width, height, colors) {
-    const { depths } = this.data.analysis, { paths, selection } = { paths: this.data.paths, selection: this.selection };
+    const { paths, analysis: { depths } } = this.data, { selection } = this;
     const most = Math.max(...depths.counts, 1);
     const box = { left: 34, top: 10, width: width - 44, height: height - 46 };
     this.frame = new Frame(depths, { range: [0, most * 1.06], ticks: depths.countTicks, log: false }, box);

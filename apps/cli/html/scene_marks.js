@@ -70,19 +70,23 @@ function label(context, [x, y], text, chosen, colors) {
   context.fillText(text, x, y + 0.5);
 }
 
-/** Beside the line, where the path does not go. */
+/** Beside the line, where the path does not go: outside of its bend, to the right of what is nearly straight. */
 function aside(project, path, i) {
   const here = project(path.points[i]);
-  let x = 0, y = 0;
+  let x = 0, y = 0, dx = 0, dy = 1;
   for (const j of [i - 1, i + 1]) {
-    const other = path.points[j] && project(path.points[j]);
-    if (!other) continue;
+    const screen = path.points[j] && projectedSegment(project, path.points[i], path.points[j]);
+    if (!screen) continue;
+    const other = screen[1];  // or where it leaves what the eye sees
     const length = Math.hypot(other[0] - here[0], other[1] - here[1]) || 1;
-    x -= (other[0] - here[0]) / length;
-    y -= (other[1] - here[1]) / length;
+    dx = (other[0] - here[0]) / length;
+    dy = (other[1] - here[1]) / length;
+    x -= dx;
+    y -= dy;
   }
   const length = Math.hypot(x, y);
-  return length < 0.2 ? [here[0] + 16, here[1] - 16] : [here[0] + (x / length) * 22, here[1] + (y / length) * 22];
+  if (length < 0.9) return [here[0] + Math.abs(dy) * 20, here[1] - Math.sign(dy || 1) * dx * 20];
+  return [here[0] + (x / length) * 25, here[1] + (y / length) * 25];
 }
 
 /** @param project world to pixels of the style sheet, null behind the eye */

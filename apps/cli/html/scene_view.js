@@ -57,7 +57,8 @@ export class SceneView {
       click: (at) => this.click(at),
       hover: (at) => this.hover(at),
     });
-    new ResizeObserver(redraw).observe(this.canvas);
+    // At once: a picture of the old size would be stretched.
+    new ResizeObserver(() => this.gl && this.draw()).observe(this.canvas);
     this.opacity.addEventListener("input", redraw);
     for (const box of [this.showPaths, this.showEvents]) box.addEventListener("change", () => this.selectionChanged());
     byId("view-camera").addEventListener("click", () => this.goHome());
