@@ -8,19 +8,16 @@ AreaEmitter::AreaEmitter(const Shape& shape, std::shared_ptr<const Texture> radi
     : shape_(shape), radiance_(std::move(radiance)), mean_(radiance_->mean()), constant_(radiance_->isConstant()) {}
 
 std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
-    std::optional<EmitterSample> light;  // returned everywhere, so that it is made in place
-    const auto point = shape_.sample(from, u);
-    if (!point || dot(point->normal, point->direction) >= 0.f) return light;  // seen from behind
-    EmitterSample& sample = light.emplace();
+    std::optional<EmitterSample> light(std::in_place);  // returned everywhere, so that it is made in place
+    EmitterSample& sample = *light;
+    if (!shape_.sample(from, u, sample) || dot(sample.normal, sample.direction) >= 0.f) {  // seen from behind
+        light.reset();
+        return light;
+    }
     // A shadow ray ends a little above the light, as it starts a little above the lit surface.
-    sample.position = point->position + point->normal * point->positionError;
-    sample.direction = point->direction;
-    sample.distance = point->distance;
-    sample.radiance = constant_ ? mean_ : radiance_->eval(point->uv);
-    sample.pdf = point->pdf;
+    sample.position = sample.position + sample.normal * sample.positionError;
+    sample.radiance = constant_ ? mean_ : radiance_->eval(sample.uv);
     sample.shape = &shape_;
-    sample.face = point->face;
-    sample.barycentrics = point->barycentrics;
     return light;
 }
 

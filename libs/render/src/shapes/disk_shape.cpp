@@ -74,16 +74,14 @@ std::int32_t DiskShape::faceAt(Vec3f position) const {
     return diskFace(static_cast<float>(turn < 0 ? turn + 1 : turn));
 }
 
-std::optional<ShapeSample> DiskShape::sample(Vec3f from, Vec2f u) const {
+bool DiskShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
     const Vec2f p = squareToConcentricDisk(u);
-    ShapeSample sample;
     sample.position = narrow(center_ + axisX_ * double(p.x) + axisY_ * double(p.y));
     sample.normal = narrow(normal_) * normalSign_;
     sample.positionError = positionError_;
     const float angle = std::atan2(p.y, p.x) * (0.5f * kInvPi);
     sample.uv = {std::sqrt(p.x * p.x + p.y * p.y), angle < 0.f ? angle + 1.f : angle};
-    if (!completeAreaSample(from, area_, sample)) return std::nullopt;
-    return sample;
+    return completeAreaSample(from, area_, sample);
 }
 
 float DiskShape::pdf(Vec3f, Vec3f direction, float distance, const SurfaceInteraction& at) const {

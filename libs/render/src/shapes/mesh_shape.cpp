@@ -66,7 +66,7 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
     if (!mesh_.uvs.empty()) at.uv = mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * hit.u + mesh_.uvs[t[2]] * hit.v;
 }
 
-std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
+bool MeshShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
     assert(triangles_.size() > 0);
     // The triangle takes what it needs of u.x and the point gets the remainder: using u.x twice as it is correlates
     // triangle and point.
@@ -74,8 +74,6 @@ std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
     const Face& face = faces_[chosen.index];
     const Vec2f bary = squareToUniformTriangle({reusesTriangleSample_ ? u.x : chosen.remainder, u.y});
 
-    std::optional<ShapeSample> result;  // returned everywhere, so that it is made in place
-    ShapeSample& sample = result.emplace();
     sample.position = face.at(bary.x, bary.y);
     sample.normal = face.normal;
     sample.positionError = face.positionError;
@@ -86,8 +84,7 @@ std::optional<ShapeSample> MeshShape::sample(Vec3f from, Vec2f u) const {
         const Triangle& t = mesh_.triangles[chosen.index];
         sample.uv = mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;
     }
-    if (!completeAreaSample(from, area_, sample)) result.reset();
-    return result;
+    return completeAreaSample(from, area_, sample);
 }
 
 float MeshShape::pdf(Vec3f, Vec3f direction, float distance, const SurfaceInteraction& at) const {

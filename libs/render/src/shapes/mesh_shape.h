@@ -15,7 +15,7 @@ class MeshShape final : public Shape {
 
     void interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& at) const override;
     float area() const override { return area_; }
-    std::optional<ShapeSample> sample(Vec3f from, Vec2f u) const override;
+    bool sample(Vec3f from, Vec2f u, ShapeSample& sample) const override;
     float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;

@@ -68,11 +68,11 @@ std::int32_t SphereShape::faceAt(Vec3f position) const {
 
 float SphereShape::area() const { return static_cast<float>(4 * kPiDouble * radius_ * radius_); }
 
-std::optional<ShapeSample> SphereShape::sample(Vec3f from, Vec2f u) const {
+bool SphereShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
     const Vec3d toCenter = center_ - widen(from);
     const double squaredDistance = dot(toCenter, toCenter);
     const double squaredSine = radius_ * radius_ / squaredDistance;
-    if (!(squaredSine < 1)) return sampleFromInside(from, u);
+    if (!(squaredSine < 1)) return sampleFromInside(from, u, sample);
 
     const double coneSize = oneMinusCosine(squaredSine);
     const double distance = std::sqrt(squaredDistance);
@@ -86,7 +86,6 @@ std::optional<ShapeSample> SphereShape::sample(Vec3f from, Vec2f u) const {
                             toCenter * (cosine / distance);
     const Vec3d normal = normalize(widen(from) + direction * toSurface - center_);
 
-    ShapeSample sample;
     sample.position = narrow(center_ + normal * radius_);
     sample.normal = narrow(normal) * normalSign_;
     sample.positionError = positionError_;
@@ -94,18 +93,16 @@ std::optional<ShapeSample> SphereShape::sample(Vec3f from, Vec2f u) const {
     sample.direction = narrow(direction);
     sample.distance = static_cast<float>(toSurface);
     sample.pdf = static_cast<float>(1 / (2 * kPiDouble * coneSize));
-    return sample;
+    return true;
 }
 
-std::optional<ShapeSample> SphereShape::sampleFromInside(Vec3f from, Vec2f u) const {
+bool SphereShape::sampleFromInside(Vec3f from, Vec2f u, ShapeSample& sample) const {
     const Vec3f normal = squareToUniformSphere(u);
-    ShapeSample sample;
     sample.position = narrow(center_ + widen(normal) * radius_);
     sample.normal = normal * normalSign_;
     sample.positionError = positionError_;
     sample.uv = uvOf(normalize(toObject_.vector(normal)));
-    if (!completeAreaSample(from, area(), sample)) return std::nullopt;
-    return sample;
+    return completeAreaSample(from, area(), sample);
 }
 
 float SphereShape::pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const {

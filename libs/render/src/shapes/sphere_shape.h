@@ -16,7 +16,7 @@ class SphereShape final : public Shape {
     /// From outside, directions within the cone that the sphere fills are equally likely
     /// (Shirley, Wang and Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", 1996); from inside,
     /// points are.
-    std::optional<ShapeSample> sample(Vec3f from, Vec2f u) const override;
+    bool sample(Vec3f from, Vec2f u, ShapeSample& sample) const override;
     float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
@@ -30,7 +30,7 @@ class SphereShape final : public Shape {
     Vec3f upperCorner() const;
 
   private:
-    std::optional<ShapeSample> sampleFromInside(Vec3f from, Vec2f u) const;
+    bool sampleFromInside(Vec3f from, Vec2f u, ShapeSample& sample) const;
     Vec2f uvOf(Vec3f local) const;
 
     Vec3d center_;

@@ -6,19 +6,25 @@
 
 #include "emca/core/color.h"
 #include "emca/render/interaction.h"
+#include "emca/render/shape.h"
 
 namespace emca::render {
 
-/// Light that may arrive at a point: a place on an emitter, chosen at random.
-struct EmitterSample {
-    Vec3f position;      ///< just above the light's surface; of distant light, outside the scene. World space
-    Vec3f direction;     ///< unit, from the lit point to the light
-    float distance = 0;  ///< to `position`, scene units
-    Color radiance;      ///< towards the lit point, before occlusion; of delta lights irradiance on a plane facing them
-    float pdf = 0;       ///< per steradian, without the choice among lights; 1 for delta lights
+/// Light that may arrive at a point: a place on an emitter, chosen at random. Of area lights `position` is just above the
+/// surface, of distant light outside the scene; `pdf` is without the choice among lights, 1 for delta lights. What only
+/// surfaces have (normal, uv, face, barycentrics) is left alone by other lights.
+struct EmitterSample : ShapeSample {
+    Color radiance;                        ///< towards the lit point, before occlusion; of delta lights irradiance on a
+                                           ///< plane facing them
     const Shape* shape = nullptr;          ///< of area lights: what shines
-    std::int32_t face = -1;                ///< as ShapeSample's
-    Vec2f barycentrics = kNoBarycentrics;  ///< as ShapeSample's
+
+    EmitterSample() = default;
+    EmitterSample(Vec3f at, Vec3f towards, float far, Color arriving, float density) : radiance(arriving) {
+        position = at;
+        direction = towards;
+        distance = far;
+        pdf = density;
+    }
 };
 
 /// Source of light. Immutable once it is part of a scene; safe from all threads.

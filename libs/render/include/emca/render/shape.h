@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "emca/core/mesh.h"
@@ -57,8 +56,9 @@ class Shape {
     /// Fills in position, normals, frame, uv, face, barycentrics and positionError; leaves the rest alone.
     virtual void interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& at) const = 0;
     virtual float area() const = 0;  ///< square scene units
-    /// Chooses a point to be lit by, as seen from `from`. Nothing if all of it is seen edge-on or has no area.
-    virtual std::optional<ShapeSample> sample(Vec3f from, Vec2f u) const = 0;
+    /// Chooses a point to be lit by, as seen from `from`. Written in place, as it is part of a light's sample.
+    /// \return false if all of the shape is seen edge-on or has no area; `sample` is then unspecified
+    virtual bool sample(Vec3f from, Vec2f u, ShapeSample& sample) const = 0;
     /// Density with which sample() chooses the point that a ray from `from` along `direction` met, per steradian.
     /// \param distance  from `from` to the point
     virtual float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const = 0;
