@@ -14,8 +14,8 @@ from . import _native
 __all__ = ["METRICS", "difference", "mean", "flip", "Flip", "statistics", "faulty_pixels", "fireflies", "FaultyPixel", "Firefly"]
 
 #: Names of the metrics of :func:`difference`. d = image - reference; the small constants keep dark pixels from dominating:
-#: "relative absolute error" is |d| / (|reference| + 0.01), "relative squared error" d² / (reference² + 0.01), "SMAPE"
-#: 2 |d| / (|image| + |reference| + 0.02).
+#: "relative absolute error" is |d| / (|reference| + 0.01), "relative squared error" d² / (reference² + 0.01), "symmetric
+#: absolute error" 2 |d| / (|image| + |reference| + 0.02). :func:`flip` says more about FLIP.
 METRICS: Tuple[str, ...] = tuple(_native.metric_names)
 
 

@@ -69,7 +69,7 @@ def masked(values: Any, known: np.ndarray, kind: str) -> np.ma.MaskedArray:
     """Values of the query language: unknown ones are masked. Texts become an object array, conditions bool."""
     if kind == "text":
         data = np.array(values, dtype=object)
-    elif kind == "boolean":
+    elif kind == "condition":
         data = values != 0
     else:
         data = values

@@ -198,10 +198,11 @@ _running: "weakref.WeakSet[Server]" = weakref.WeakSet()
 
 
 @atexit.register
-def _stop_all() -> None:
-    # The server's threads call into the interpreter: they must have ended before it does.
+def _end() -> None:
+    # The servers' threads call into the interpreter: they must have ended before it does.
     for server in list(_running):
         server.stop()
+    _native.begin_exit()
 
 
 def serve(renderer: Renderer, port: int = 0, host: str = "127.0.0.1", token: str = "", allow_quit: bool = False,

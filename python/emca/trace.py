@@ -53,6 +53,9 @@ class MatchCounts:
     matched_of_pixel: np.ndarray
     sum_of_pixel: np.ndarray
 
+    def __repr__(self) -> str:
+        return f"<MatchCounts: {self.matched} of {self.paths} paths; {self.unknown} unknown, {self.omitted} omitted>"
+
 
 class Trace:
     """Recorded paths of the pixels that were asked for, and how the replay went."""

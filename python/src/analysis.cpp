@@ -10,6 +10,7 @@
 #include "emca/analysis/statistics.h"
 #include "errors.h"
 #include "images.h"
+#include "unlocked.h"
 
 namespace emca::python {
 namespace {
@@ -49,14 +50,14 @@ OutlierOptions outlierOptions(bool esd, double deviations, bool upperOnly, std::
 py::dict pathOutliers(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly, std::size_t maximum, double significance) {
     OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
     options.quantity = toQuantity(quantity);
-    const auto detect = [&] { const py::gil_scoped_release unlocked; return detectOutliers(paths, options); };
+    const auto detect = [&] { const Unlocked unlocked; return detectOutliers(paths, options); };
     return toDict(unwrap(detect()));
 }
 
 py::dict valueOutliers(py::handle given, bool esd, double deviations, bool upperOnly, std::size_t maximum, double significance) {
     const OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
     const std::vector<double> values = toDoubles(given);
-    const auto detect = [&] { const py::gil_scoped_release unlocked; return detectOutliers(values, options); };
+    const auto detect = [&] { const Unlocked unlocked; return detectOutliers(values, options); };
     return toDict(unwrap(detect()));
 }
 
@@ -114,7 +115,7 @@ py::tuple flipImages(py::handle given, py::handle givenReference, bool high, py:
         options.exposures = FlipExposures{three[0].cast<double>(), three[1].cast<double>(), three[2].cast<std::uint32_t>()};
     }
     const Image image = toImage(given), reference = toImage(givenReference);
-    const auto compared = [&] { const py::gil_scoped_release unlocked; return flip(image, reference, options); };
+    const auto compared = [&] { const Unlocked unlocked; return flip(image, reference, options); };
     FlipResult result = unwrap(compared());
     return py::make_tuple(toOwnedArray(std::move(result.error)), py::make_tuple(result.exposures.start, result.exposures.stop, result.exposures.count));
 }

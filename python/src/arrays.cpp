@@ -27,14 +27,16 @@ py::capsule baseOf(std::shared_ptr<const void> owner) {
 
 py::object readOnly(py::array array) {
     py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-    return std::move(array);
+    return array;
 }
 
 template <typename T>
-py::array_t<T, py::array::c_style | py::array::forcecast> toArray(py::handle value) {
-    auto array = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(value);
-    if (!array) throw py::error_already_set();
-    return array;
+using PlainArray = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+/// Raises what numpy says of anything that is no array.
+template <typename T>
+PlainArray<T> toArray(py::handle value) {
+    return PlainArray<T>(py::reinterpret_borrow<py::object>(value));
 }
 
 /// Without numpy for what is no array: this is on the way of every recorded value.

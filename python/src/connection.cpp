@@ -8,6 +8,7 @@
 #include "emca/client/dataset.h"
 #include "scene.h"
 #include "server_info.h"
+#include "unlocked.h"
 #include "waiting.h"
 
 namespace emca::python {
@@ -20,7 +21,7 @@ class SharedConnection {
   public:
     explicit SharedConnection(std::unique_ptr<client::Connection> connection) : connection_(std::move(connection)) {}
     ~SharedConnection() {
-        const py::gil_scoped_release unlocked;  // its end waits for the network
+        const Unlocked unlocked;  // its end waits for the network
         connection_.reset();
     }
     SharedConnection(SharedConnection&&) = delete;
@@ -136,7 +137,7 @@ void bindConnection(py::module_& module) {
     py::class_<SharedConnection>(module, "Connection")
         .def("address", [](const SharedConnection& c) { return c->address().text(); })
         .def("is_open", [](const SharedConnection& c) { return c->isOpen(); })
-        .def("close", [](const SharedConnection& c) { c->close(); }, py::call_guard<py::gil_scoped_release>())
+        .def("close", [](const SharedConnection& c) { const Unlocked unlocked; c->close(); })
         .def("info", [](const SharedConnection& c) { return await([&](const RequestObserver&) { return c->info(); }); })
         .def("camera", [](const SharedConnection& c) { return toDict(await([&](const RequestObserver&) { return c->camera(); })); })
         .def("quit_server", [](const SharedConnection& c) { await([&](const RequestObserver&) { return c->quitServer(); }); })

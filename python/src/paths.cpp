@@ -11,6 +11,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
+#include "unlocked.h"
 
 namespace emca::python {
 namespace {
@@ -123,14 +124,14 @@ std::shared_ptr<PathSet> subset(const PathSet& paths, py::handle positions) {
         if (chosen[i] >= paths.pathCount()) throw py::index_error("a path's position lies beyond the set");
         if (i > 0 && chosen[i] <= chosen[i - 1]) throw py::value_error("positions of paths must ascend");
     }
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return std::make_shared<PathSet>(paths.subset(chosen));
 }
 
 std::shared_ptr<PathSet> merged(const py::iterable& sets) {
     std::vector<PathSet> all;
     for (const py::handle set : sets) all.push_back(set.cast<const PathSet&>());
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return std::make_shared<PathSet>(PathSet::merged(all));
 }
 

@@ -20,8 +20,7 @@ Value fromNumbers(const T* v, py::ssize_t size) {
 
 template <typename T>
 Value fromArray(const py::array& array) {
-    const auto typed = py::array_t<T, kPlain>::ensure(array);
-    if (!typed) throw py::error_already_set();
+    const py::array_t<T, kPlain> typed(array);
     return fromNumbers(typed.data(), typed.size());
 }
 
@@ -32,8 +31,7 @@ Value fromArray(const py::array& array) {
     if (kind == 'b' && array.size() == 1) return array.attr("item")().cast<bool>();
     if (kind != 'f' && kind != 'i' && kind != 'u') throw py::type_error("EMCA cannot record values of the numpy type " + py::str(array.dtype()).cast<std::string>());
     if (array.size() > 3) {
-        const auto typed = py::array_t<float, kPlain>::ensure(array);
-        if (!typed) throw py::error_already_set();
+        const py::array_t<float, kPlain> typed(array);
         return std::vector<float>(typed.data(), typed.data() + typed.size());
     }
     if (kind != 'f') return fromArray<std::int64_t>(array);
@@ -93,10 +91,7 @@ Value toValue(py::handle value) {
         return ColorA{static_cast<float>(rgba[0]), static_cast<float>(rgba[1]), static_cast<float>(rgba[2]), static_cast<float>(rgba[3])};
     }
     const py::array array = py::array::ensure(value);
-    if (!array) {
-        PyErr_Clear();
-        throw py::type_error("EMCA cannot record " + py::repr(value).cast<std::string>());
-    }
+    if (!array) throw py::type_error("EMCA cannot record " + py::repr(value).cast<std::string>());
     return fromArray(array);
 }
 

@@ -7,6 +7,7 @@
 #include "emca/recorder/handles.h"
 #include "python_renderer.h"
 #include "recorded_value.h"
+#include "unlocked.h"
 
 namespace emca::python {
 namespace {
@@ -27,7 +28,7 @@ struct PyRecording {
 template <typename Do>
 auto unlocked(const PyMonitor& monitor, const Do& act) {
     RequestMonitor& inside = monitor.get();
-    const py::gil_scoped_release released;
+    const Unlocked released;
     return act(inside);
 }
 
@@ -98,7 +99,8 @@ void bindHandles(py::module_& module) {
     using namespace py::literals;
     const float kNone = std::numeric_limits<float>::quiet_NaN();
     // Every call returns the handle, so that calls can follow each other.
-    py::class_<PyVertex>(module, "VertexHandle")
+    py::class_<PyVertex>(module, "VertexHandle",
+             "A vertex by name. Calls return it, so that they can follow each other.")
         .def("position", [](py::object self, py::handle p) { self.cast<const PyVertex&>().get().position(toVec3(p, "a position")); return self; })
         .def("environment", [](py::object self, py::handle p) { self.cast<const PyVertex&>().get().environment(toVec3(p, "a position")); return self; })
         .def("next_event", [](py::object self, py::handle p, bool visible) { self.cast<const PyVertex&>().get().nextEvent(toVec3(p, "a position"), visible); return self; }, "position"_a, "visible"_a)
@@ -111,7 +113,8 @@ void bindHandles(py::module_& module) {
                 return self;
             }, "value"_a, "technique"_a, "mis_weight"_a = kNone, "end"_a = "automatic")
         .def("add", [](py::object self, std::string_view key, py::handle value) { addValue(self.cast<const PyVertex&>().get(), key, value); return self; });
-    py::class_<PyPath>(module, "PathHandle")
+    py::class_<PyPath>(module, "PathHandle",
+             "A path by name. Calls return it, so that they can follow each other.")
         .def("origin", [](py::object self, py::handle p) { self.cast<const PyPath&>().get().origin(toVec3(p, "a position")); return self; })
         .def("final_estimate", [](py::object self, py::handle c) { self.cast<const PyPath&>().get().finalEstimate(toColor(c, "a colour")); return self; })
         .def("splat", [](py::object self, py::handle pixel, py::handle c) { self.cast<const PyPath&>().get().splat(toPixel(pixel), toColor(c, "a splat")); return self; })
@@ -126,7 +129,7 @@ CallArguments::CallArguments(RequestMonitor& monitor, Recording* recording) : ca
 CallArguments::~CallArguments() {
     Recording* const recording = std::exchange(call_->recording, nullptr);  // nobody begins any more
     while (recording != nullptr && call_->openScopes > 0) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     call_->monitor = nullptr;
@@ -137,20 +140,30 @@ py::object CallArguments::recording() const { return py::cast(PyRecording{call_}
 
 void bindRendererArguments(py::module_& module) {
     using namespace py::literals;
-    py::class_<PyMonitor>(module, "RequestMonitor")
-        .def_property_readonly("cancelled", [](const PyMonitor& m) { return unlocked(m, [](RequestMonitor& i) { return i.cancelled(); }); })
-        .def("progress", [](const PyMonitor& m, double fraction) { unlocked(m, [&](RequestMonitor& i) { i.progress(fraction); }); }, "fraction"_a)
-        .def("preview", &preview, "x"_a, "y"_a, "colors"_a)
-        .def("begin_pixel", [](const PyMonitor& m, py::handle p) { const Pixel pixel = toPixel(p); unlocked(m, [&](RequestMonitor& i) { i.beginPixel(pixel); }); })
-        .def("end_pixel", [](const PyMonitor& m, py::handle p) { const Pixel pixel = toPixel(p); unlocked(m, [&](RequestMonitor& i) { i.endPixel(pixel); }); });
-    py::class_<PyScope>(module, "RecordScope")
+    py::class_<PyMonitor>(module, "RequestMonitor",
+             "How a running call talks to its client. It ends with the call.")
+        .def_property_readonly("cancelled", [](const PyMonitor& m) { return unlocked(m, [](RequestMonitor& i) { return i.cancelled(); }); },
+             "True as soon as the client cancelled or is gone: raise emca.Cancelled().")
+        .def("progress", [](const PyMonitor& m, double fraction) { unlocked(m, [&](RequestMonitor& i) { i.progress(fraction); }); }, "fraction"_a,
+             "Done, in [0, 1]; may be called as often as one likes.")
+        .def("preview", &preview, "x"_a, "y"_a, "colors"_a,
+             "Finished pixels, an array of shape (height, width, 3), whose top-left pixel is (x, y). Optional.")
+        .def("begin_pixel", [](const PyMonitor& m, py::handle p) { const Pixel pixel = toPixel(p); unlocked(m, [&](RequestMonitor& i) { i.beginPixel(pixel); }); },
+             "Before the replay of a pixel, in a render_pixels of one's own: server tools are told.")
+        .def("end_pixel", [](const PyMonitor& m, py::handle p) { const Pixel pixel = toPixel(p); unlocked(m, [&](RequestMonitor& i) { i.endPixel(pixel); }); },
+             "After the replay of a pixel.");
+    py::class_<PyScope>(module, "RecordScope",
+             "A thread that the renderer started records inside it.")
         .def("__enter__", [](py::object self) { self.cast<PyScope&>().enter(); return self; })
         .def("__exit__", [](PyScope& scope, const py::args&) { scope.exit(); });
     bindHandles(module);
-    py::class_<PyRecording>(module, "Recording")
-        .def("scope", [](const PyRecording& r, py::handle pixel) { return std::make_unique<PyScope>(r.call, toPixel(pixel)); }, "pixel"_a)
-        .def("path", [](const PyRecording& r, py::handle pixel, std::int64_t sample, std::int32_t part) { return PyPath{r, toPixel(pixel), sample, part}; },
-             "pixel"_a, "sample"_a, "part"_a = 0);
+    py::class_<PyRecording>(module, "Recording",
+             "Where the paths of one call of render_pixel go. It ends with the call.")
+        .def("scope", [](const PyRecording& r, py::handle pixel) { return std::make_unique<PyScope>(r.call, toPixel(pixel)); }, "pixel"_a,
+             "For threads that the renderer starts: emca.recorder() of a thread listens inside `with recording.scope(pixel):`.")
+        .def("path", [](const PyRecording& r, py::handle pixel, std::int64_t sample, std::int32_t part) { r.get(); return PyPath{r, toPixel(pixel), sample, part}; },
+             "pixel"_a, "sample"_a, "part"_a = 0,
+             "A path by name, for renderers that advance many paths a stage at a time (wavefront).");
 }
 
 }  // namespace emca::python

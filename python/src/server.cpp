@@ -13,6 +13,7 @@
 #include "errors.h"
 #include "python_renderer.h"
 #include "recorded_value.h"
+#include "unlocked.h"
 
 namespace emca::python {
 namespace {
@@ -24,7 +25,7 @@ class Serving {
   public:
     /// With the interpreter's lock, which is let go while the server starts.
     Serving(const py::object& adapter, ServerOptions options) : renderer_(adapter) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         server_ = unwrap(Server::start(renderer_, std::move(options)));
         watcher_ = std::thread([this] {
             server_->wait();
@@ -67,7 +68,7 @@ class PythonServer {
             std::thread([serving = std::move(serving_)]() mutable { serving.reset(); }).detach();
             return;
         }
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         serving_.reset();
     }
     PythonServer(const PythonServer&) = delete;
@@ -82,7 +83,7 @@ class PythonServer {
                                 "A renderer asked its server to stop inside one of its own calls, and the server waits for "
                                 "those: call stop() from another thread."});
         }
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         serving_->server().stop();
     }
 
@@ -100,7 +101,7 @@ class PythonServer {
 
   private:
     bool waitALittle(Clock::time_point end) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         return serving_->waitUntil(std::min(end, Clock::now() + std::chrono::milliseconds(50)));
     }
 
@@ -140,9 +141,11 @@ void bindServer(py::module_& module) {
         .def("address", &PythonServer::address)
         .def("stop", &PythonServer::stop)
         .def("wait", &PythonServer::wait);
-    py::class_<SeedMap>(module, "SeedMap")
+    py::class_<SeedMap>(module, "SeedMap",
+             "Gives each (pixel, sample) its seed, by hash at no storage: more samples per pixel extend the paths and change none.")
         .def(py::init<std::uint64_t>(), "master_seed"_a = 0)
-        .def("seed", [](const SeedMap& map, py::handle pixel, std::uint64_t sample) { return map.seed(toPixel(pixel), sample); }, "pixel"_a, "sample"_a);
+        .def("seed", [](const SeedMap& map, py::handle pixel, std::uint64_t sample) { return map.seed(toPixel(pixel), sample); }, "pixel"_a, "sample"_a,
+             "64 bits.");
 }
 
 }  // namespace emca::python

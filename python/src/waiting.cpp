@@ -7,6 +7,8 @@
 #include <mutex>
 #include <thread>
 
+#include "unlocked.h"
+
 namespace emca::python {
 namespace {
 
@@ -34,7 +36,7 @@ struct Progress {
     }
     /// Waits a little without the interpreter's lock. \return whether the work is done; `told` is the fraction, or -1
     bool wait(double& told) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         std::unique_lock lock(mutex);
         changed.wait_for(lock, kPatience, [this] { return done || fraction >= 0; });
         told = std::exchange(fraction, -1);
@@ -79,7 +81,7 @@ void runInterruptibly(const Work& work, const py::object& progress) {
         }
     }
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         worker.join();
     }
     if (raised) std::rethrow_exception(raised);
