@@ -26,17 +26,8 @@ build=${EMCA_BUILD_DIR:-build/release}
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$build" --target emca-render emca emca-explorer -j "$(nproc)"
 
-log=$(mktemp)
-"$build/bin/emca-render" scenes/firefly/scene.xml --serve 0 >"$log" 2>&1 &
-renderer=$!
-trap 'kill "$renderer" 2>/dev/null || true; rm -f "$log"' EXIT
-for _ in $(seq 300); do
-  address=$(sed -n 's/^listening on //p' "$log")
-  [ -n "$address" ] && break
-  kill -0 "$renderer" 2>/dev/null || { cat "$log" >&2; exit 5; }
-  sleep 0.1
-done
-[ -n "$address" ] || { echo "demo.sh: the renderer did not begin to listen within 30 s" >&2; exit 5; }
+. scripts/serve.sh
+serve firefly
 
 if [ "$off_screen" -eq 1 ]; then
   rm -rf demo-output

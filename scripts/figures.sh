@@ -7,33 +7,15 @@ build=${EMCA_BUILD_DIR:-build/release}
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$build" --target emca-render emca-explorer -j "$(nproc)"
 mkdir -p docs/pictures
-log=$(mktemp)
-trap 'stop; rm -f "$log"' EXIT
-
-renderer=
-stop() { if [ -n "$renderer" ]; then kill "$renderer" 2>/dev/null || true; wait "$renderer" 2>/dev/null || true; renderer=; fi; }
-
-# serve SCENE [option of emca-render…]: sets $address
-serve() {
-  stop
-  "$build/bin/emca-render" "scenes/$1/scene.xml" "${@:2}" --serve 0 >"$log" 2>&1 &
-  renderer=$!
-  for _ in $(seq 300); do
-    address=$(sed -n 's/^listening on //p' "$log")
-    [ -n "$address" ] && return
-    kill -0 "$renderer" 2>/dev/null || { cat "$log" >&2; exit 5; }
-    sleep 0.1
-  done
-  echo "figures.sh: the renderer did not begin to listen within 30 s" >&2
-  exit 5
-}
+. scripts/serve.sh
+settings=$serve_log.settings
 
 # picture NAME LAYER [option of emca-explorer…]: the 3D view with the layer's colour bar
 picture() {
   LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" "$build/bin/emca-explorer" "$address" \
-    --only scene --size 960x720 --theme dark --settings "$log.settings" --layers "$2" --show-layer "$2" --opacity 1 \
+    --only scene --size 960x720 --theme dark --settings "$settings" --layers "$2" --show-layer "$2" --opacity 1 \
     --screenshot "docs/pictures/$1.png" "${@:3}"
-  rm -f "$log.settings"
+  rm -f "$settings"
   echo "docs/pictures/$1.png"
 }
 
