@@ -52,36 +52,39 @@ Values unknown(std::size_t size, Type type, int components) {
     return values;
 }
 
-Values colors(const SharedArray<Color>& column, const SharedArray<std::uint8_t>& flags, IndexRange range, std::uint8_t bit) {
-    if (column.empty()) return unknown(range.size(), Type::color, 3);
-    Values values = numbersOf(range.size(), Type::color, 3);
-    for (Index i = range.first; i < range.last; ++i) {
-        const Color color = column[i];
-        const std::size_t at = i - range.first;
-        values.numbers[0][at] = static_cast<double>(color.r);
-        values.numbers[1][at] = static_cast<double>(color.g);
-        values.numbers[2][at] = static_cast<double>(color.b);
-    }
+void put(Values& values, std::size_t at, Color c) {
+    values.numbers[0][at] = static_cast<double>(c.r);
+    values.numbers[1][at] = static_cast<double>(c.g);
+    values.numbers[2][at] = static_cast<double>(c.b);
+}
+void put(Values& values, std::size_t at, Vec3f p) { put(values, at, Color(p.x, p.y, p.z)); }
+
+/// `value(i)`, a colour or a vector, for each i in `range`.
+template <typename Value>
+Values eachTriple(Type type, IndexRange range, Value value) {
+    Values values = numbersOf(range.size(), type, 3);
+    for (Index i = range.first; i < range.last; ++i) put(values, i - range.first, value(i));
+    return values;
+}
+
+template <typename T>
+Values triples(Type type, const SharedArray<T>& column, const SharedArray<std::uint8_t>& flags, IndexRange range, std::uint8_t bit) {
+    if (column.empty()) return unknown(range.size(), type, 3);
+    Values values = eachTriple(type, range, [&](Index i) { return column[i]; });
     setKnown(values, flags, range, bit);
     return values;
+}
+
+Values colors(const SharedArray<Color>& column, const SharedArray<std::uint8_t>& flags, IndexRange range, std::uint8_t bit) {
+    return triples(Type::color, column, flags, range, bit);
+}
+Values points(const SharedArray<Vec3f>& column, const SharedArray<std::uint8_t>& flags, IndexRange range, std::uint8_t bit) {
+    return triples(Type::vector, column, flags, range, bit);
 }
 
 Values luminances(const SharedArray<Color>& column, const SharedArray<std::uint8_t>& flags, IndexRange range, std::uint8_t bit) {
     if (column.empty()) return unknown(range.size(), Type::number, 1);
     Values values = each(range, [&](Index i) { return luminance(column[i]); });
-    setKnown(values, flags, range, bit);
-    return values;
-}
-
-Values points(const SharedArray<Vec3f>& column, const SharedArray<std::uint8_t>& flags, IndexRange range, std::uint8_t bit) {
-    if (column.empty()) return unknown(range.size(), Type::vector, 3);
-    Values values = numbersOf(range.size(), Type::vector, 3);
-    for (Index i = range.first; i < range.last; ++i) {
-        const std::size_t at = i - range.first;
-        values.numbers[0][at] = static_cast<double>(column[i].x);
-        values.numbers[1][at] = static_cast<double>(column[i].y);
-        values.numbers[2][at] = static_cast<double>(column[i].z);
-    }
     setKnown(values, flags, range, bit);
     return values;
 }
@@ -256,16 +259,7 @@ Values Evaluator::core(const Node& node, Chunk& chunk) {
             const auto& firsts = chunk.firstOf(Domain::path, Domain::vertex);
             return eachTruth({0, range.size()}, [&](Index i) { return i + 1 == firsts[owners[i] + 1]; });
         }
-        case Core::value: {
-            Values values = numbersOf(range.size(), Type::color, 3);
-            for (Index i = range.first; i < range.last; ++i) {
-                const Color color = c.contributions[i].value;
-                values.numbers[0][i - range.first] = static_cast<double>(color.r);
-                values.numbers[1][i - range.first] = static_cast<double>(color.g);
-                values.numbers[2][i - range.first] = static_cast<double>(color.b);
-            }
-            return values;
-        }
+        case Core::value: return eachTriple(Type::color, range, [&](Index i) { return c.contributions[i].value; });
         case Core::valueLuminance: return each(range, [&](Index i) { return luminance(c.contributions[i].value); });
         case Core::weight: {
             Values values = each(range, [&](Index i) { return c.contributions[i].misWeight; });
@@ -277,16 +271,7 @@ Values Evaluator::core(const Node& node, Chunk& chunk) {
             const auto& owners = chunk.ownersOf(node.scope, Domain::vertex);
             return each({0, range.size()}, [&](Index i) { return c.depths[vertices.first + owners[i]]; });
         }
-        case Core::nextEventPosition: {
-            Values values = numbersOf(range.size(), Type::vector, 3);
-            for (Index i = range.first; i < range.last; ++i) {
-                const Vec3f p = c.nextEvents[i].position;
-                values.numbers[0][i - range.first] = static_cast<double>(p.x);
-                values.numbers[1][i - range.first] = static_cast<double>(p.y);
-                values.numbers[2][i - range.first] = static_cast<double>(p.z);
-            }
-            return values;
-        }
+        case Core::nextEventPosition: return eachTriple(Type::vector, range, [&](Index i) { return c.nextEvents[i].position; });
         case Core::visible: return eachTruth(range, [&](Index i) { return c.nextEvents[i].visible != 0; });
         case Core::event: case Core::lobe: case Core::label: case Core::subpath: case Core::technique: case Core::end: break;
     }
