@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/qt_compat.h"
+#include "emca/client/session.h"
 
 namespace emca::explorer {
 namespace {
@@ -23,10 +24,12 @@ bool looksLikeImage(const QString& text) {
 }
 
 Result<void> setTarget(Options& options, const QString& text) {
+    const bool session = QFileInfo(text).suffix().compare("emca", Qt::CaseInsensitive) == 0;
     if (QFileInfo(text).isFile()) {
-        options.image = text;
+        (session || client::isSession(text.toStdString()) ? options.session : options.image) = text;
         return {};
     }
+    if (session) return Error{ErrorCode::fileNotFound, ("The session \"" + text + "\" is not there; check its name.").toStdString()};
     if (looksLikeImage(text) || text.contains('/'))
         return Error{ErrorCode::fileNotFound, ("The image \"" + text + "\" is not there; check its name.").toStdString()};
     const auto address = client::Address::parse(text.toStdString());
@@ -170,8 +173,8 @@ Result<Options> parseOptions(const QStringList& arguments) {
         }
         if (!done) return done.error();
     }
-    if (!options.tour.isEmpty() && !options.address && !options.help)
-        return usageError("--tour shows a renderer at work: give its HOST:PORT.");
+    if (!options.tour.isEmpty() && !options.address && options.session.isEmpty() && !options.help)
+        return usageError("--tour shows a renderer at work, or a session: give HOST:PORT or a file.");
     if (options.onlyScene && options.screenshot.isEmpty() && !options.help)
         return usageError("--only scene says what --screenshot shows: give its file too.");
     // What shall be shown has to be collected.
@@ -182,9 +185,10 @@ Result<Options> parseOptions(const QStringList& arguments) {
 
 QString usage() {
     return QStringLiteral(
-        "emca-explorer [HOST:PORT] [IMAGE] [options]\n"
+        "emca-explorer [HOST:PORT] [SESSION] [IMAGE] [options]\n"
         "Shows the light paths behind the pixels of a renderer.\n\n"
         "  HOST:PORT            connect to a renderer, e.g. 127.0.0.1:50013\n"
+        "  SESSION              open what was saved (.emca); needs no renderer\n"
         "  IMAGE                open an EXR, PFM, HDR or PNG file\n"
         "  --pixel X,Y          select a pixel; (0,0) is the top left; \"firefly\" finds the most striking one\n"
         "  --spp N              samples per pixel of the first render\n"

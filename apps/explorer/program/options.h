@@ -32,7 +32,7 @@ struct SceneWishes {
 /// What was asked for on the command line.
 struct Options {
     std::optional<client::Address> address;
-    QString image;                       ///< file to open; empty for none
+    QString image, session;              ///< files to open; empty for none
     std::optional<Pixel> pixel;
     bool firefly = false;                ///< the most striking pixel in place of a given one, and its outlier path
     QString screenshot;                  ///< PNG to write, then end; empty: stay open
@@ -48,7 +48,7 @@ struct Options {
 };
 
 /// \param arguments  without the program's name
-/// Errors: invalidArgument (usage), fileNotFound (an image that is not there).
+/// Errors: invalidArgument (usage), fileNotFound (a file that is not there).
 Result<Options> parseOptions(const QStringList& arguments);
 QString usage();
 

@@ -20,6 +20,7 @@
 #include "program/tour_story.h"
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
+#include "window/file_menu.h"
 #include "window/history_view.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
@@ -34,7 +35,8 @@ constexpr int kSettledTicks = 4;   // drawn things may start others: a flight of
 int codeOf(FailedTask task) {
     switch (task) {
         case FailedTask::connect: return 4;
-        case FailedTask::openImage: case FailedTask::saveImage: return 3;
+        case FailedTask::openImage: case FailedTask::saveImage:
+        case FailedTask::openSession: case FailedTask::saveSession: return 3;
         case FailedTask::render: case FailedTask::trace: case FailedTask::scene:
         case FailedTask::surface: return 5;
     }
@@ -57,8 +59,10 @@ void Unattended::start() {
     if (options_.samplesPerPixel) window_.setSamples(options_.samplesPerPixel);
     window_.views().surfaces->setWantedLayers(options_.scene.layers);
     if (options_.onlyScene) onlyScene();
-    if (!options_.image.isEmpty()) {
-        session_.openImage(options_.image);
+    QStringList files{options_.session, options_.image};
+    files.removeAll(QString());
+    if (!files.isEmpty()) {
+        window_.files().open(files);
         // Before connecting, so that no image is rendered where one is there.
         then([this] { if (options_.address) window_.connectTo(*options_.address); });
     } else if (options_.address) {
@@ -152,6 +156,8 @@ void Unattended::end(int code, const QString& sentence) {
 }
 
 void Unattended::selectPixel() {
+    // A session was saved with the pixel that matters.
+    if (!options_.pixel && !options_.session.isEmpty() && selection_.state().pixel && !dataset_.paths().empty()) return;
     std::optional<Pixel> pixel = options_.pixel;
     const client::ImageEntry* entry = dataset_.currentImage();
     if (!pixel && entry && entry->image)

@@ -13,11 +13,11 @@ namespace {
 constexpr int kTraceMilliseconds = 60, kRenderMilliseconds = 300;
 constexpr int kRetryMilliseconds[] = {200, 400, 800, 1500, 3000, 5000};
 
+}  // namespace
+
 bool sameScene(const client::ServerInfo& a, const client::ServerInfo& b) {
     return a.renderer == b.renderer && a.scene == b.scene && a.width == b.width && a.height == b.height;
 }
-
-}  // namespace
 
 struct SessionController::Opened {
     std::shared_ptr<client::Connection> connection;
@@ -28,18 +28,18 @@ struct SessionController::Opened {
 SessionController::SessionController(client::Dataset& dataset, client::Selection& selection, QObject* parent)
     : QObject(parent), dataset_(dataset), selection_(selection), workers_(*this),
       datasetListening_(dataset, [this](std::uint32_t parts) {
-          if (parts & client::DatasetPart::currentImage) ensureTraced(true);
+          if ((parts & client::DatasetPart::currentImage) && !showing_) ensureTraced(true);
       }),
       selectionListening_(selection, [this](std::uint32_t parts) {
-          if (parts & client::SelectionPart::pixel) ensureTraced(false);
+          if ((parts & client::SelectionPart::pixel) && !showing_) ensureTraced(false);
       }) {
     qRegisterMetaType<FailedTask>();
     connect(&progress_, &QTimer::timeout, this, [this] {
         drainPreview();
-        if (!render_ && !trace_ && !scene_) progress_.stop();
+        if (!render_ && !trace_ && !scene_ && !opening_ && !saving_) progress_.stop();
         else progress_.setInterval(trace_ ? kTraceMilliseconds : kRenderMilliseconds);
         // Each repaint of the status bar costs a frame of the whole window where GL is software.
-        const double shown = std::round(renderFraction() * 100) + 1e3 * std::round(sceneFraction() * 20);
+        const double shown = std::round(renderFraction() * 100) + 1e3 * std::round(sceneFraction() * 20) + 1e6 * std::round(sessionFraction() * 20);
         if (shown == shownProgress_ && !trace_ && progress_.isActive()) return;
         shownProgress_ = shown;
         emit activityChanged();
@@ -48,10 +48,13 @@ SessionController::SessionController(client::Dataset& dataset, client::Selection
     connect(&retry_, &QTimer::timeout, this, &SessionController::open);
 }
 
-SessionController::~SessionController() { drop(); }
+SessionController::~SessionController() {
+    if (opening_) *opening_->cancel = true;
+    drop();   // a session that is being saved is saved: the workers are waited for
+}
 
 bool SessionController::isIdle() const {
-    return !render_ && !trace_ && !scene_ && !layers_ && filesBeingRead_ == 0 && link_ != LinkState::connecting &&
+    return !render_ && !trace_ && !scene_ && !layers_ && !opening_ && !saving_ && filesBeingRead_ == 0 && link_ != LinkState::connecting &&
            link_ != LinkState::reconnecting;
 }
 
@@ -164,7 +167,10 @@ void SessionController::adopt(Opened opened) {
     const client::ImageEntry* image = dataset_.currentImage();
     const bool fits = image && image->image && image->image->color.width() == opened.info.width &&
                       image->image->color.height() == opened.info.height;
-    if (renderOnConnect_ && !fits) render(client::RenderOptions(renderOptions_));
+    if (renderOnConnect_ && !fits) {
+        render(client::RenderOptions(renderOptions_));
+        rendersUnasked_ = true;
+    }
     loadScene();
     if (opened.info.surfaceRender != 0 && !render_) fetchLayers();
     ensureTraced(true);

@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <QTimer>
 #include <deque>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "base/listeners.h"
 #include "emca/client/connection.h"
+#include "emca/client/session.h"
 #include "session/activity.h"
 #include "session/workers.h"
 
@@ -17,7 +19,10 @@ namespace emca::explorer {
 enum class LinkState { offline, connecting, connected, reconnecting };
 
 /// What a failure was about, so that the window can offer the right way on.
-enum class FailedTask { connect, render, trace, scene, surface, openImage, saveImage };
+enum class FailedTask { connect, render, trace, scene, surface, openImage, saveImage, openSession, saveSession };
+
+/// What one renderer said about a scene holds for what the other shows.
+bool sameScene(const client::ServerInfo& a, const client::ServerInfo& b);
 
 /// Everything between the models and the renderer: owns the connection, runs all requests and file access in other
 /// threads and puts what arrives into Dataset. GUI thread; no function blocks.
@@ -44,6 +49,14 @@ class SessionController : public QObject {
     /// Surface layers of a finished render are on their way.
     bool isFetchingLayers() const { return finished_ || layers_; }
     bool isReadingFile() const { return filesBeingRead_ > 0; }
+    bool isOpeningSession() const { return opening_ != nullptr; }
+    bool isSavingSession() const { return saving_ != nullptr; }
+    /// Of the session that is opened or saved; negative: not known yet.
+    double sessionFraction() const { return saving_ ? saving_->fraction.load() : opening_ ? opening_->fraction.load() : 0; }
+    /// What a person wrote into the session that was opened last; saved again with the next one.
+    const std::string& notes() const { return notes_; }
+    /// The image that connecting has rendered, so that nobody asked for it; null if none.
+    std::shared_ptr<const RenderedImage> automaticImage() const { return automaticImage_.lock(); }
     /// Nothing is under way and nothing is waiting for a connection.
     bool isIdle() const;
     double renderFraction() const { return render_ ? render_->fraction.load() : 0; }
@@ -69,6 +82,12 @@ class SessionController : public QObject {
     void reloadScene();
     void openImage(const QString& file);
     void saveImage(const QString& file);
+    /// Puts a session in the place of everything that is here. The connection stays if its renderer shows the same
+    /// scene. Until the file is read nothing changes, nor if it cannot be read; a later call replaces an earlier one.
+    void openSession(const QString& file);
+    /// Everything as it is now. Does nothing while another one is saved.
+    void saveSession(const QString& file);
+    void cancelSession();
     /// Shows a trace of the history and selects its pixel.
     void showTrace(std::shared_ptr<const emca::client::Trace> trace);
 
@@ -78,8 +97,12 @@ class SessionController : public QObject {
     void activityChanged();
     void renderFinished();
     void traceFinished();
-    void imageOpened();
+    void imageOpened(const QString& file);
     void imageSaved(const QString& file);
+    /// \param complete  every part of the file was read
+    void sessionOpened(const QString& file, bool complete, const QStringList& notices);
+    /// \param saved  false: it failed or was cancelled
+    void sessionSaveEnded(const QString& file, bool saved);
     void failed(emca::explorer::FailedTask task, const QString& sentence);
 
   private:
@@ -97,6 +120,8 @@ class SessionController : public QObject {
     void trace(Pixel pixel);
     void traced(std::shared_ptr<Activity> activity, std::shared_ptr<const RenderedImage> image, Result<client::Trace> result);
     void present(std::shared_ptr<const client::Trace> trace, bool fresh);
+    std::shared_ptr<const client::Trace> storedTrace(Pixel pixel) const;
+    void showSession(client::Session session);
     /// Why the pixel of the current image cannot be traced, or empty.
     QString obstacle(Pixel pixel) const;
     client::TraceOptions traceOptions(Pixel pixel) const;
@@ -124,11 +149,16 @@ class SessionController : public QObject {
     QTimer retry_;
     bool renderOnConnect_ = true;
 
-    std::shared_ptr<Activity> render_, trace_, scene_, layers_;
+    std::shared_ptr<Activity> render_, trace_, scene_, layers_, opening_, saving_;
     std::optional<client::Render> finished_;   ///< complete, waiting for its layers
     std::shared_ptr<RenderedImage> preview_;
     client::RenderOptions renderOptions_;
     int renderCount_ = 0, filesBeingRead_ = 0;
+    bool rendersUnasked_ = false;       ///< the render that runs was begun by connecting
+    std::weak_ptr<const RenderedImage> automaticImage_;
+    std::string notes_;
+    std::vector<client::PixelNote> pixelNotes_;
+    bool showing_ = false;              ///< a session comes: its selection asks for no traces
     std::optional<Pixel> tracing_;
     QTimer progress_;
     double shownProgress_ = -1;         ///< what the last activityChanged was about

@@ -56,6 +56,7 @@ void SessionController::render(const client::RenderOptions& wanted) {
     const auto options = withNamedLayers(wanted);
     if (!options) return;
     cancelRender();
+    rendersUnasked_ = false;
     auto activity = std::make_shared<Activity>();
     render_ = activity;
     const client::ServerInfo& info = *dataset_.info();
@@ -139,7 +140,11 @@ void SessionController::completeRender(std::optional<Result<SurfaceField>> surfa
     finished_.reset();
     {
         const client::Dataset::Transaction together(dataset_);
-        if (index) dataset_.replaceImage(*index, entryOf(std::move(render), renderCount_));
+        if (index) {
+            client::ImageEntry entry = entryOf(std::move(render), renderCount_);
+            if (rendersUnasked_) automaticImage_ = entry.image;
+            dataset_.replaceImage(*index, std::move(entry));
+        }
         if (surface && *surface) {
             layers_.reset();   // older ones on their way
             dataset_.setSurface(std::make_shared<const SurfaceField>(std::move(**surface)));
@@ -184,7 +189,7 @@ void SessionController::openImage(const QString& file) {
                          image->color = std::move(*result);
                          entry.image = std::move(image);
                          dataset_.addImage(std::move(entry));
-                         emit imageOpened();
+                         emit imageOpened(file);
                      }
                      emit activityChanged();
                  });

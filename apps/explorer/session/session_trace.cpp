@@ -34,7 +34,8 @@ client::Selection::State restricted(client::Selection::State state, const PathSe
 
 QString SessionController::obstacle(Pixel pixel) const {
     const QString at = toQString(analysis::formatPixel(pixel));
-    if (!connection_) return tr("Pixel %1 was not traced: no renderer is connected.").arg(at);
+    if (!connection_ && dataset_.traces().empty()) return tr("Pixel %1 was not traced: no renderer is connected.").arg(at);
+    if (!connection_) return tr("Pixel %1 was not traced before, and no renderer is connected that could do it now.").arg(at);
     const client::ImageEntry* entry = dataset_.currentImage();
     if (!entry || !entry->image || !dataset_.info()) return {};
     const Image& image = entry->image->color;
@@ -85,8 +86,33 @@ void SessionController::ensureTraced(bool quietly) {
         present(found->trace, false);
         return;
     }
+    if (!connection_) {
+        // Of a session, or of a renderer that went away: better an answer of another image than none.
+        if (auto stored = storedTrace(*pixel)) {
+            cancelTrace();
+            present(std::move(stored), false);
+            return;
+        }
+    }
     if (quietly && !obstacle(*pixel).isEmpty()) return;
     trace(*pixel);
+}
+
+/// The reply that fits best: of the image in view, else the one that is shown, else the newest.
+std::shared_ptr<const client::Trace> SessionController::storedTrace(Pixel pixel) const {
+    const client::ImageEntry* entry = dataset_.currentImage();
+    std::shared_ptr<const client::Trace> best;
+    int bestRank = 0;
+    for (const auto& trace : dataset_.traces()) {
+        if (std::ranges::find(trace->pixels, pixel) == trace->pixels.end()) continue;
+        const bool ofImage = entry && entry->renderId != 0 && trace->renderId == entry->renderId;
+        const bool shown = std::ranges::find(dataset_.current(), trace) != dataset_.current().end();
+        const int rank = 1 + 4 * ofImage + 2 * shown + (trace->pixels.size() == 1);
+        if (rank <= bestRank) continue;
+        best = trace;
+        bestRank = rank;
+    }
+    return best;
 }
 
 void SessionController::traceAgain() {

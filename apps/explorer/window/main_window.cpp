@@ -20,6 +20,7 @@
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
 #include "window/connect_panel.h"
+#include "window/file_menu.h"
 #include "window/history_view.h"
 #include "window/panel_dock.h"
 #include "window/sample_box.h"
@@ -48,7 +49,6 @@ MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, S
       selectionListening_(selection, [this](std::uint32_t parts) {
           if (parts & ~static_cast<std::uint32_t>(client::SelectionPart::hover)) updateActions();
       }) {
-    setWindowTitle(tr("EMCA"));
     setObjectName("mainWindow");
     setAcceptDrops(true);
     setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
@@ -57,6 +57,7 @@ MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, S
     resize(1920, 1080);
 
     toast_ = new Toast(theme, this);
+    files_ = new FileMenu(*this, dataset, session, theme, *toast_, settings);
     connectPanel_ = new ConnectPanel(theme, this);
     status_ = new StatusStrip(dataset, session, theme, this);
     samples_ = new SampleBox;
@@ -183,16 +184,20 @@ void MainWindow::writeSettings() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
     writeSettings();
-    QMainWindow::closeEvent(event);
+    if (files_->mayClose()) QMainWindow::closeEvent(event);
+    else event->ignore();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();
+    for (const QUrl& url : event->mimeData()->urls())
+        if (url.isLocalFile()) return event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
+    QStringList files;
     for (const QUrl& url : event->mimeData()->urls())
-        if (url.isLocalFile()) session_.openImage(url.toLocalFile());
+        if (url.isLocalFile()) files << url.toLocalFile();
+    files_->open(files);
     event->acceptProposedAction();
 }
 

@@ -20,6 +20,7 @@ class QToolButton;
 namespace emca::explorer {
 
 class ConnectPanel;
+class FileMenu;
 class PanelDock;
 class SampleBox;
 class StateOverlay;
@@ -40,6 +41,7 @@ class MainWindow : public QMainWindow {
     PanelDock* dock(const QString& name) const;
     const std::map<QString, PanelDock*>& docks() const { return docks_; }
     Toast& toast() { return *toast_; }
+    FileMenu& files() { return *files_; }
     ConnectPanel& connectPanel() { return *connectPanel_; }
     /// Samples per pixel of the next render; a person's choice outlives the scene's.
     void setSamples(std::uint32_t samplesPerPixel);
@@ -78,8 +80,6 @@ class MainWindow : public QMainWindow {
     void focusSelection();
     void setTheme(ThemeKind kind);
     void setIcons();
-    void openImageDialog();
-    void saveImageDialog();
     // main_window_states.cpp
     void connectSession();
     void showStates();
@@ -96,6 +96,7 @@ class MainWindow : public QMainWindow {
     std::map<QString, QAction*> actions_;
     std::vector<std::pair<QWidget*, StateOverlay*>> busy_;
     Toast* toast_ = nullptr;
+    FileMenu* files_ = nullptr;
     ConnectPanel* connectPanel_ = nullptr;
     StatusStrip* status_ = nullptr;
     SampleBox* samples_ = nullptr;

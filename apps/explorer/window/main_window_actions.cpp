@@ -1,7 +1,6 @@
 // Menus, toolbar and keys of MainWindow.
 #include <QActionGroup>
 #include <QApplication>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
 #include <QSignalBlocker>
@@ -15,6 +14,7 @@
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
 #include "window/connect_panel.h"
+#include "window/file_menu.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
 #include "window/sample_box.h"
@@ -36,8 +36,7 @@ QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& 
 
 void MainWindow::addMenus() {
     QMenu* file = menuBar()->addMenu(tr("&File"));
-    addAction(file, "openImage", tr("Open image…"), QKeySequence::Open, [this] { openImageDialog(); });
-    addAction(file, "saveImage", tr("Save image…"), QKeySequence::Save, [this] { saveImageDialog(); });
+    for (QAction* made : files_->addTo(*file)) actions_[made->objectName()] = made;
     file->addSeparator();
     addAction(file, "quit", tr("Quit"), QKeySequence::Quit, [this] { close(); });
 
@@ -109,8 +108,8 @@ void MainWindow::addToolBar() {
     bar->addWidget(samples_);
     bar->addAction(action("cancel"));
     bar->addSeparator();
-    bar->addAction(action("openImage"));
-    bar->addAction(action("saveImage"));
+    bar->addAction(action("open"));
+    bar->addAction(action("saveSession"));
     bar->addSeparator();
     const auto stepper = [&](const QString& label, const char* previous, const char* next) {
         for (const char* name : {previous, next}) {
@@ -130,11 +129,11 @@ void MainWindow::addToolBar() {
     bar->addAction(action("theme"));
     connect(connectPanel_, &ConnectPanel::connectWanted, this, &MainWindow::connectTo);
     connect(samples_, qOverload<int>(&QSpinBox::valueChanged), this, [this] { samplesChosen_ = samples_->hasFocus() || samplesChosen_; });
-    icons_ = {{action("render"), Icon::render}, {action("cancel"), Icon::cancel}, {action("openImage"), Icon::open},
-              {action("saveImage"), Icon::save}, {action("previousPath"), Icon::previous}, {action("nextPath"), Icon::next},
+    icons_ = {{action("render"), Icon::render}, {action("cancel"), Icon::cancel}, {action("open"), Icon::open},
+              {action("saveSession"), Icon::save}, {action("previousPath"), Icon::previous}, {action("nextPath"), Icon::next},
               {action("previousVertex"), Icon::previous}, {action("nextVertex"), Icon::next}, {action("focus"), Icon::focus}};
     // A leading space keeps the words off their symbols.
-    for (const char* name : {"render", "cancel", "openImage", "saveImage", "focus"})
+    for (const char* name : {"render", "cancel", "open", "saveSession", "focus"})
         action(name)->setIconText(' ' + action(name)->text().remove(QStringLiteral("…")).section(' ', 0, 0));
     setIcons();
     connect(&theme_, &Theme::themeChanged, this, &MainWindow::setIcons);
@@ -159,7 +158,7 @@ void MainWindow::updateActions() {
     action("cancel")->setEnabled(session_.isRendering());
     action("traceAgain")->setEnabled(connected && selection_.state().pixel.has_value());
     action("reloadScene")->setEnabled(connected);
-    action("saveImage")->setEnabled(dataset_.currentImage() != nullptr);
+    files_->updateActions();
     for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex"}) action(name)->setEnabled(paths);
     action("undo")->setEnabled(undo_.canUndo());
     action("redo")->setEnabled(undo_.canRedo());
@@ -184,22 +183,6 @@ void MainWindow::focusSelection() {
 void MainWindow::setTheme(ThemeKind kind) {
     theme_.setKind(kind);
     action("theme")->setText(theme_.isDark() ? tr("Light theme") : tr("Dark theme"));
-}
-
-void MainWindow::openImageDialog() {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open image"), settings_.value("folder").toString(),
-                                                      tr("Images (*.exr *.pfm *.hdr *.png *.tif *.tiff *.jpg);;All files (*)"));
-    if (file.isEmpty()) return;
-    settings_.setValue("folder", QFileInfo(file).absolutePath());
-    session_.openImage(file);
-}
-
-void MainWindow::saveImageDialog() {
-    const QString file = QFileDialog::getSaveFileName(this, tr("Save image"), settings_.value("folder").toString(),
-                                                      tr("OpenEXR (*.exr);;PFM (*.pfm);;Radiance HDR (*.hdr);;PNG (*.png)"));
-    if (file.isEmpty()) return;
-    settings_.setValue("folder", QFileInfo(file).absolutePath());
-    session_.saveImage(QFileInfo(file).suffix().isEmpty() ? file + ".exr" : file);
 }
 
 }  // namespace emca::explorer

@@ -8,6 +8,7 @@
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
 #include "window/connect_panel.h"
+#include "window/file_menu.h"
 #include "window/history_view.h"
 #include "window/main_window.h"
 #include "window/status_strip.h"
@@ -28,12 +29,17 @@ void MainWindow::connectSession() {
     });
     connect(&session_, &SessionController::activityChanged, this, [this] {
         showBusy();
+        if (!dataset_.currentImage()) showStates();   // a session is being opened, or is no longer
         if (session_.isLoadingScene()) views_.scene->showLoading(session_.sceneFraction());
         else views_.scene->endLoading();
         updateActions();
     });
     connect(&session_, &SessionController::failed, this, &MainWindow::showFailure);
-    connect(&session_, &SessionController::imageSaved, this, [this](const QString& file) { toast_->showRemark(tr("Saved %1").arg(file)); });
+    connect(&session_, &SessionController::sessionOpened, this, [this] {
+        undo_.clear();
+        updateActions();
+        status_->refresh();
+    });
     connect(views_.history, &HistoryView::traceChosen, &session_, &SessionController::showTrace);
     connect(views_.history, &HistoryView::traceAgainWanted, &session_, &SessionController::traceAgain);
     connect(views_.image, &ImageView::traceAgainWanted, &session_, &SessionController::traceAgain);
@@ -51,10 +57,14 @@ void MainWindow::showStates() {
         overlay.clear();
         return;
     }
+    if (session_.isOpeningSession()) {
+        overlay.showBusy(tr("Opening the session"), session_.sessionFraction(), tr("Cancel"), [this] { session_.cancelSession(); });
+        return;
+    }
     const auto openPanel = [this] { connectPanel_->openBelow(connectButton_); };
     switch (session_.link()) {
         case LinkState::offline:
-            overlay.showEmpty(tr("No image yet"), tr("Connect to a renderer, or drop an EXR, PFM, HDR or PNG file here."), tr("Connect…"), openPanel);
+            overlay.showEmpty(tr("No image yet"), tr("Connect to a renderer, or drop a session (.emca) or an image (EXR, PFM, HDR, PNG) here."), tr("Connect…"), openPanel);
             break;
         case LinkState::connecting:
             overlay.showBusy(tr("Connecting to %1").arg(toQString(session_.address().text())), -1, tr("Cancel"),
@@ -82,6 +92,7 @@ void MainWindow::showBusy() {
 }
 
 void MainWindow::showFailure(FailedTask task, const QString& sentence) {
+    if (files_->showFailure(task, sentence)) return showStates();
     switch (task) {
         case FailedTask::connect:
             toast_->showError(sentence, tr("Try again"), [this] { session_.retryNow(); });
@@ -97,8 +108,7 @@ void MainWindow::showFailure(FailedTask task, const QString& sentence) {
             if (dataset_.meshes() || !dataset_.paths().empty()) toast_->showError(sentence, tr("Load again"), [this] { session_.reloadScene(); });
             break;
         case FailedTask::surface: toast_->showError(tr("The layers did not come: %1").arg(sentence), tr("Render again"), [this] { render(); }); break;
-        case FailedTask::openImage: toast_->showError(sentence, tr("Open another…"), [this] { openImageDialog(); }); break;
-        case FailedTask::saveImage: toast_->showError(sentence, tr("Save elsewhere…"), [this] { saveImageDialog(); }); break;
+        case FailedTask::openImage: case FailedTask::saveImage: case FailedTask::openSession: case FailedTask::saveSession: break;
     }
     showStates();
 }

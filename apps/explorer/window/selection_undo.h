@@ -26,6 +26,13 @@ class SelectionUndo {
     void undo() { move(done_, undone_); }
     void redo() { move(undone_, done_); }
 
+    /// Other paths are here: what was selected before means nothing.
+    void clear() {
+        done_.clear();
+        undone_.clear();
+        last_ = selection_.state();
+    }
+
   private:
     void move(std::vector<client::Selection::State>& from, std::vector<client::Selection::State>& to) {
         if (from.empty()) return;

@@ -73,6 +73,7 @@ StatusStrip::StatusStrip(client::Dataset& dataset, SessionController& session, T
     }
     connect(cancel_, &QToolButton::clicked, this, [this] {
         if (session_.isTracing()) session_.cancelTrace();
+        else if (session_.isSavingSession() || session_.isOpeningSession()) session_.cancelSession();
         else session_.cancelRender();
     });
     connect(&session, &SessionController::linkChanged, this, &StatusStrip::refresh);
@@ -91,7 +92,14 @@ void StatusStrip::refresh() {
 void StatusStrip::showLink() {
     const QString where = toQString(session_.address().text());
     switch (session_.link()) {
-        case LinkState::offline: link_->setText(tr("Not connected")); break;
+        case LinkState::offline: {
+            // Of a session: what it shows.
+            QStringList parts{tr("Not connected")};
+            if (dataset_.info()) parts << toQString(dataset_.info()->renderer) << toQString(dataset_.info()->scene);
+            parts.removeAll(QString());
+            link_->setText(parts.join(QStringLiteral("  ·  ")));
+            break;
+        }
         case LinkState::connecting: link_->setText(tr("Connecting to %1 …").arg(where)); break;
         case LinkState::reconnecting: link_->setText(tr("%1 went away; trying again …").arg(where)); break;
         case LinkState::connected: {
@@ -110,6 +118,9 @@ void StatusStrip::showActivity() {
     if (session_.isTracing() && session_.traceSeconds() > kShowTraceAfterSeconds) {
         text = tr("Tracing pixel %1").arg(toQString(analysis::formatPixel(*session_.tracedPixel())));
         fraction = session_.traceFraction();
+    } else if (session_.isSavingSession() || session_.isOpeningSession()) {
+        text = session_.isSavingSession() ? tr("Saving the session") : tr("Opening the session");
+        fraction = session_.sessionFraction();
     } else if (session_.isRendering()) {
         fraction = session_.renderFraction();
         text = session_.isFetchingLayers() ? tr("Fetching layers") : fraction >= 0 ? tr("Rendering %1 %").arg(static_cast<int>(fraction * 100), 3) : tr("Rendering");

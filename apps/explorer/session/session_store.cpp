@@ -1,0 +1,115 @@
+// Sessions of SessionController: opened and saved in other threads, shown in this one.
+#include <QScopedValueRollback>
+#include <algorithm>
+
+#include "base/qt_compat.h"
+#include "session/session_controller.h"
+
+namespace emca::explorer {
+namespace {
+
+QStringList sentences(const std::vector<std::string>& notices) {
+    QStringList list;
+    for (const std::string& notice : notices) list << toQString(notice);
+    return list;
+}
+
+/// Nothing renders on: what has arrived of a preview is an image like others.
+void endPreviews(std::vector<client::ImageEntry>& images) {
+    constexpr std::string_view kRendering = ", rendering";
+    for (client::ImageEntry& entry : images) {
+        if (!entry.preview) continue;
+        entry.preview = false;
+        if (entry.title.ends_with(kRendering)) entry.title.resize(entry.title.size() - kRendering.size());
+        entry.title += ", incomplete";
+    }
+}
+
+}  // namespace
+
+void SessionController::openSession(const QString& file) {
+    if (opening_) *opening_->cancel = true;
+    auto activity = std::make_shared<Activity>();
+    opening_ = activity;
+    begin();
+    workers_.run([path = std::filesystem::path(file.toStdString()),
+                  activity] { return client::openSession(path, {}, Activity::observer(activity)); },
+                 [this, activity, file](Result<client::OpenedSession> result) {
+                     if (activity != opening_) return;
+                     opening_.reset();
+                     if (result) {
+                         showSession(std::move(result->session));
+                         emit sessionOpened(file, result->whole && result->notices.empty(), sentences(result->notices));
+                     } else if (result.error().code != ErrorCode::cancelled) {
+                         fail(FailedTask::openSession, result.error());
+                     }
+                     emit activityChanged();
+                 });
+}
+
+void SessionController::showSession(client::Session session) {
+    const bool stays = connection_ && dataset_.info() && session.info && sameScene(*dataset_.info(), *session.info);
+    if (stays) {
+        // What is under way belongs to what goes.
+        cancelRender();
+        cancelTrace();
+        for (auto* activity : {&scene_, &layers_}) {
+            if (*activity) *(*activity)->cancel = true;
+            activity->reset();
+        }
+        session.info = dataset_.info();
+    } else {
+        disconnectFromRenderer();
+    }
+    endPreviews(session.images);
+    known_.clear();
+    for (const auto& trace : session.traces) {
+        if (trace->pixels.size() != 1 || trace->renderId == 0) continue;
+        for (const client::ImageEntry& entry : session.images)
+            if (entry.renderId == trace->renderId) known_.push_back({trace->pixels.front(), entry.image.get(), trace});
+    }
+    // The server may have begun to count anew since the session was saved.
+    if (stays)
+        for (client::ImageEntry& entry : session.images) entry.renderId = 0;
+    notes_ = std::move(session.notes);
+    pixelNotes_ = std::move(session.pixelNotes);
+    renderCount_ = std::max(renderCount_, static_cast<int>(session.images.size()));
+    lastRequest_.clear();
+    {
+        const QScopedValueRollback<bool> quiet(showing_, true);
+        client::show(session, dataset_, selection_);
+    }
+    if (stays && !session.meshes) loadScene();
+}
+
+void SessionController::saveSession(const QString& file) {
+    if (saving_) return;
+    client::Session session = client::sessionOf(dataset_, selection_);
+    session.notes = notes_;
+    session.pixelNotes = pixelNotes_;
+    // Layers without the scene they lie on cannot be kept: it is still on its way, as they were.
+    if (!session.meshes) session.surface = nullptr;
+    auto activity = std::make_shared<Activity>();
+    saving_ = activity;
+    begin();
+    workers_.run(
+        [path = std::filesystem::path(file.toStdString()), session = std::move(session), activity] {
+            return client::saveSession(path, session, Activity::observer(activity));
+        },
+        [this, file](Result<void> result) {
+            saving_.reset();
+            if (!result && result.error().code != ErrorCode::cancelled) fail(FailedTask::saveSession, result.error());
+            emit sessionSaveEnded(file, result.ok());
+            emit activityChanged();
+        });
+}
+
+void SessionController::cancelSession() {
+    if (saving_) *saving_->cancel = true;
+    if (!opening_) return;
+    *opening_->cancel = true;
+    opening_.reset();
+    emit activityChanged();
+}
+
+}  // namespace emca::explorer
