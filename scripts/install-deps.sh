@@ -12,8 +12,10 @@ packages=(
   libcli11-dev libfmt-dev nlohmann-json3-dev
   # explorer
   qtbase5-dev libqt5svg5-dev libqwt-qt5-dev libvtk9-dev libvtk9-qt-dev fonts-inter
+  # Python package
+  python3 python3-dev python3-numpy pybind11-dev python3-setuptools python3-wheel python3-pip python3-venv
   # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
+  libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri chromium
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
