@@ -145,7 +145,8 @@ std::string reportText(const Json& report) {
     const auto share = [](const Json& part, const Json& whole) {
         return part == whole ? part.dump() : fmt::format("{} of {}", part.dump(), whole.dump());
     };
-    std::string text = fmt::format("{}: {} paths, ", report["output"].get<std::string>(), share(report["paths"], report["ofPaths"]));
+    std::string text = fmt::format("{}: {} {}, ", report["output"].get<std::string>(), share(report["paths"], report["ofPaths"]),
+                                   report["ofPaths"] == 1 ? "path" : "paths");
     text += report["triangles"].is_null() ? std::string("no scene") : share(report["triangles"], report["ofTriangles"]) + " triangles";
     return text + fmt::format(", replay {}, {}\n", report["verdict"].get<std::string>(), analysis::formatBytes(report["bytes"].get<std::uint64_t>()));
 }

@@ -46,7 +46,8 @@ TEST_F(Export, PathsAreChosenByBrightnessAndQuery) {
     const Json all = json({"pixel", address(), "5", "6", "--spp", "64", "--json"});
     const auto brightness = [](const Json& path) { return 0.2126 * path["estimate"][0].get<double>() + 0.7152 * path["estimate"][1].get<double>() + 0.0722 * path["estimate"][2].get<double>(); };
     double least = 1e9;
-    for (const Json& path : dataOf("a.html")["pixel"]["paths"]) least = std::min(least, brightness(path));
+    const Json page = dataOf("a.html");
+    for (const Json& path : page["pixel"]["paths"]) least = std::min(least, brightness(path));
     int brighter = 0;
     for (const Json& path : all["paths"]) brighter += brightness(path) >= least ? 1 : 0;
     EXPECT_EQ(brighter, 2);

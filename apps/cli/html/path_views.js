@@ -125,8 +125,15 @@ export class PathViews {
       const chosen = Number(item.dataset.vertex) === vertex;
       item.setAttribute("aria-selected", chosen);
       if (chosen) this.list.setAttribute("aria-activedescendant", item.id);
-      if (chosen) item.scrollIntoView({ block: "nearest" });
+      if (chosen) this.reveal(item);
     }
+  }
+
+  /** Scrolls the list, not the page. */
+  reveal(item) {
+    const list = this.list.getBoundingClientRect(), place = item.getBoundingClientRect();
+    if (place.top < list.top) this.list.scrollTop -= list.top - place.top;
+    else if (place.bottom > list.bottom) this.list.scrollTop += place.bottom - list.bottom;
   }
 
   item(index, label, what, estimate) {

@@ -38,6 +38,13 @@ export function allPaths(paths, colors, faint) {
 /** One path with its next events. */
 export function onePath(path, vertex, colors, withEvents) {
   const strokes = new Strokes();
+  for (const segment of path.segments) {
+    const ends = segmentEnds(path, segment);
+    if (!ends) continue;
+    const color = segment[2] === 0 && segment[1] === vertex ? colors.current : colors[kSegmentColors[segment[2]]];
+    strokes.add(...ends, color, 1, 3.4, 1.3);
+  }
+  // Last and thinner: where a shadow ray goes the path's way, both are seen.
   if (withEvents)
     path.json.vertices.forEach((v, i) => {
       const start = path.points[i];
@@ -48,12 +55,6 @@ export function onePath(path, vertex, colors, withEvents) {
         strokes.add(start, end, event.visible ? colors.visible : colors.occluded, here, 2, 0.8, event.visible ? 0 : 7);
       }
     });
-  for (const segment of path.segments) {
-    const ends = segmentEnds(path, segment);
-    if (!ends) continue;
-    const color = segment[2] === 0 && segment[1] === vertex ? colors.current : colors[kSegmentColors[segment[2]]];
-    strokes.add(...ends, color, 1, 3.4, 1.3);
-  }
   return strokes.array();
 }
 
