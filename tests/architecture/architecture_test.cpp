@@ -32,6 +32,7 @@ const std::map<std::string, Rule>& rules() {
         {"apps/render", {{"core", "recorder", "imageio", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},
         {"apps/cli", {{"core", "client", "query", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
         {"apps/explorer", {{"core", "client", "query", "analysis", "imageio"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
+        {"python", {{"core", "recorder", "query", "server", "client", "analysis"}, {"pybind11/"}}},
         {"examples", {{"core", "recorder", "server", "client"}, {}}},
     };
     return table;
@@ -126,6 +127,7 @@ TEST(Architecture, ADoubtfulIncludeIsFound) {
     EXPECT_NE(complaint(rules().at("libs/core"), false, "emca/server/server.h"), "");
     EXPECT_NE(complaint(rules().at("libs/client"), false, "emca/server/server.h"), "");
     EXPECT_NE(complaint(rules().at("libs/analysis"), true, "QWidget"), "");
+    EXPECT_NE(complaint(rules().at("python"), false, "emca/render/scene.h"), "");
     EXPECT_EQ(complaint(rules().at("libs/server"), true, "vector"), "");
 }
 
