@@ -351,7 +351,7 @@ void collectColumns(const Node& node, std::set<std::string>& columns) {
     if (node.kind == Kind::core) {
         if (const std::string recorded = findCore(node.scope, node.text)->columns; !recorded.empty()) columns.insert(recorded);
     }
-    if (node.kind == Kind::lightPath) columns.insert({"event", "contribution", "emission", "nee"});
+    if (node.kind == Kind::lightPath) columns.insert({"event", "contribution", "emission"});
     for (const Node& child : node.children) collectColumns(child, columns);
 }
 

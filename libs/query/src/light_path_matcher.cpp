@@ -142,7 +142,6 @@ std::size_t LightPathMatcher::placeOf(Index vertex) const {
 
 Truth LightPathMatcher::walkMatches() {
     Truth result = kFalse;
-    bool tested = false;
     const auto consider = [&](Truth one) {
         if (one == kTrue || (one == kUnknown && result == kFalse)) result = one;
         return one == kTrue;
@@ -152,13 +151,9 @@ Truth LightPathMatcher::walkMatches() {
         const Event event = eventOf(v);
         const bool ends = event == Event::emission || event == Event::background || paths_.isEnvironment(v) || emits(v);
         if (!fromLight_ && ends && consider(wayOf(i, true))) return kTrue;
-        const IndexRange tests = paths_.nextEvents(v);
-        tested |= !tests.empty();
-        for (Index n = tests.first; n < tests.last; ++n)
-            if (paths_.nextEvent(n).visible && consider(wayOf(i, false))) return kTrue;
     }
     // A light path that tells of no connection to the camera: all of it.
-    if (fromLight_ && !tested && !vertices_.empty()) consider(wayOf(0, false));
+    if (fromLight_ && !vertices_.empty()) consider(wayOf(0, false));
     return result;
 }
 

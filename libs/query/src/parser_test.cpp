@@ -190,7 +190,7 @@ TEST(QueryParser, ColumnsAreWhatIsRead) {
     using Names = std::vector<std::string>;
     EXPECT_EQ(parsed("true").columns(), Names{"estimate"});  // an empty list would mean all
     EXPECT_EQ(parsed("any(v.`BSDF pdf` < 1) and luminance > depth").columns(), (Names{"BSDF pdf", "estimate", "position"}));
-    EXPECT_EQ(parsed("lpe('CL')").columns(), (Names{"contribution", "emission", "event", "nee"}));
+    EXPECT_EQ(parsed("lpe('CL')").columns(), (Names{"contribution", "emission", "event"}));
     EXPECT_EQ(parsed("any(n.visible) and sum(c.weight) > first(v.mesh) and any(v.luminance > 1)").columns(), (Names{"contribution", "intersection estimate", "nee", "surface"}));
     EXPECT_FALSE(parsed("any(v.depth > 3)").readsWholePixels());
     EXPECT_TRUE(parsed("luminance > 10 * mean(luminance)").readsWholePixels());
