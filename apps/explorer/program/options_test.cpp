@@ -30,6 +30,19 @@ TEST(Options, AFileThatIsThereIsAnImage) {
     EXPECT_EQ(options->address->host, "localhost");
 }
 
+TEST(Options, ASessionIsKnownByItsName) {
+    QTemporaryDir folder;
+    const QString file = folder.filePath("a b.emca");
+    QFile(file).open(QIODevice::WriteOnly);
+    const auto options = parseOptions({file, "--tour", "x"});
+    ASSERT_TRUE(options);
+    EXPECT_EQ(options->session, file);
+    EXPECT_TRUE(options->image.isEmpty());
+    const auto missing = parseOptions({"missing.emca"});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(exitCode(missing.error()), 3);
+}
+
 TEST(Options, MistakesNameWhatIsWrong) {
     for (const QStringList& wrong : {QStringList{"--pixel", "12"}, {"--pixel", "-1,2"}, {"--size", "10x10"}, {"--theme", "blue"},
                                      {"--spp", "0"}, {"--spp", "1e3"}, {"--frobnicate", "1"}, {"--pixel"}, {"--tour", "x"}}) {
