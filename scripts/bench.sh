@@ -19,3 +19,8 @@ echo "== 3D view"
 LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" "$build/bench/scene_bench" 5
 echo "== what layers cost a render"
 "$build/bench/layers_bench" scenes/cornell-box/scene.xml 16 7
+if [ -d "$build/python/emca" ]; then
+  echo "== Python: a pixel and a session to arrays"
+  cmake --build "$build" --target emca_python emca-render
+  PYTHONPATH="$build/python" /usr/bin/python3 python/bench/python_bench.py "$build/bin/emca-render"
+fi

@@ -3,6 +3,7 @@ that the tests belong to, so that it is not built twice."""
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -30,7 +31,7 @@ class Install(unittest.TestCase):
             succeed(sys.executable, "-m", "venv", "--system-site-packages", folder / "venv", env=environment)
             python = folder / "venv" / "bin" / "python"
             # pip builds in the source tree; this copy keeps it clean.
-            succeed("cp", "-r", SOURCE / "python", folder / "python")
+            shutil.copytree(SOURCE / "python", folder / "python", ignore=shutil.ignore_patterns("build", "*.egg-info"))
             environment["EMCA_BUILD_DIR"] = os.environ["EMCA_BUILD_DIR"]
             succeed(python, "-m", "pip", "install", "--no-index", "--no-build-isolation", "--quiet", folder / "python", env=environment)
             said = succeed(python, "-c", "import emca, numpy; print(emca.__file__); print(emca.__version__, len(emca.PathSet()))",

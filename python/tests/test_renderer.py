@@ -2,6 +2,7 @@
 
 import gc
 import logging
+import pathlib
 import subprocess
 import sys
 import textwrap
@@ -265,7 +266,8 @@ class Endings(unittest.TestCase):
 
     def run_script(self, body):
         script = "import emca, sys, threading, time, os\nfrom support import Known, Slow\n" + textwrap.dedent(body)
-        return subprocess.run([sys.executable, "-c", script], timeout=60, capture_output=True, text=True)
+        return subprocess.run([sys.executable, "-c", script], timeout=60, capture_output=True, text=True,
+                              cwd=pathlib.Path(__file__).parent)
 
     def test_the_interpreter_exits(self):
         """With a server that renders, clients that wait, in the main thread's way or not."""
