@@ -104,6 +104,8 @@ QGroupBox::title { subcontrol-origin: margin; left: 0; color: {mutedText}; }
 
 QLabel[role="muted"] { color: {mutedText}; }
 QLabel[role="title"] { font-weight: 600; }
+QLabel[role="error"] { color: {error}; }
+QLabel[role="warning"] { color: {warning}; }
 QLabel[role="badge"] { border-radius: 8px; padding: 1px 8px; background: {raised}; color: {mutedText}; }
 QLabel[role="badge"][tone="success"] { background: {successSurface}; color: {success}; }
 QLabel[role="badge"][tone="warning"] { background: {warningSurface}; color: {warning}; }

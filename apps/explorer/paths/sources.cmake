@@ -1,4 +1,10 @@
 set(EMCA_PATHS_SOURCES
+  paths/completing_field.cpp
+  paths/completing_field.h
+  paths/filter_model.cpp
+  paths/filter_model.h
+  paths/filter_panel.cpp
+  paths/filter_panel.h
   paths/outlier_model.cpp
   paths/outlier_model.h
   paths/outlier_panel.cpp
@@ -13,6 +19,10 @@ set(EMCA_PATHS_SOURCES
   paths/path_tree_model.h
   paths/path_tree_view.cpp
   paths/path_tree_view.h
+  paths/query_field.cpp
+  paths/query_field.h
+  paths/rule_row.cpp
+  paths/rule_row.h
   paths/swatch.cpp
   paths/swatch.h
   paths/table_delegate.cpp
@@ -31,4 +41,7 @@ set(EMCA_PATHS_TESTS
   paths/path_tree_model_test.cpp
   paths/path_tree_test.cpp
   paths/vertex_table_test.cpp
+)
+set(EMCA_PATHS_GL_TESTS
+  paths/filter_panel_test.cpp
 )

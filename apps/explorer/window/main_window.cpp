@@ -13,6 +13,7 @@
 #include "base/state_overlay.h"
 #include "base/theme.h"
 #include "image/image_view.h"
+#include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
 #include "paths/vertex_table.h"
@@ -31,7 +32,7 @@ namespace emca::explorer {
 namespace {
 
 /// Raised whenever docks are added or renamed: an older saved layout would hide the new ones.
-constexpr int kLayoutVersion = 2;
+constexpr int kLayoutVersion = 3;
 
 }  // namespace
 
@@ -100,6 +101,7 @@ void MainWindow::addDocks() {
     addDock(tr("Paths"), "paths", views_.paths);
     addDock(tr("Intersection"), "vertex", views_.vertex);
     addDock(tr("Outliers"), "outliers", views_.outliers);
+    addDock(tr("Filter"), "filter", views_.filter);
     addDock(tr("History"), "history", views_.history);
     addDock(tr("Surfaces"), "surfaces", views_.surfaceScroll);
     addDock(tr("3D options"), "sceneOptions", views_.sceneOptions);
@@ -125,7 +127,8 @@ void MainWindow::arrange() {
     splitDockWidget(scene, dock("paths"), Qt::Vertical);
     splitDockWidget(dock("paths"), dock("vertex"), Qt::Horizontal);
     splitDockWidget(scene, tools, Qt::Horizontal);
-    tabifyDockWidget(tools, dock("history"));
+    tabifyDockWidget(tools, dock("filter"));
+    tabifyDockWidget(dock("filter"), dock("history"));
     tabifyDockWidget(dock("history"), dock("surfaces"));
     tabifyDockWidget(dock("surfaces"), dock("sceneOptions"));
     for (const auto& [name, made] : docks_) made->show();
@@ -219,7 +222,8 @@ void MainWindow::render() {
 }
 
 bool MainWindow::isSettled() const {
-    return session_.isIdle() && views_.image->pixels().isReady() && !views_.scene->isLoading() && !views_.scene->isMoving();
+    return session_.isIdle() && views_.image->pixels().isReady() && !views_.scene->isLoading() && !views_.scene->isMoving() &&
+           views_.filter->isSettled();
 }
 
 }  // namespace emca::explorer

@@ -79,7 +79,7 @@ void MainWindow::addMenus() {
     addAction(view, "falseColor", tr("False colour"), QKeySequence("C"), [this] { views_.image->controls().toggleFalseColor(); });
     addAction(view, "nextInvalid", tr("Next NaN, infinite or negative pixel"), QKeySequence("N"), [this] { views_.image->goToNextInvalid(); });
     view->addSeparator();
-    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "history", "surfaces", "sceneOptions"})
+    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "history", "surfaces", "sceneOptions"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
     for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
     addAction(view, "resetLayout", tr("Reset layout"), {}, [this] { resetLayout(); });

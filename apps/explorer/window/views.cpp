@@ -5,6 +5,7 @@
 
 #include "base/theme.h"
 #include "image/image_view.h"
+#include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
 #include "paths/vertex_table.h"
@@ -40,6 +41,7 @@ Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme&
     views.paths = new PathTree(dataset, selection, theme);
     views.vertex = new VertexTable(dataset, selection, theme);
     views.outliers = new OutlierPanel(dataset, selection, theme);
+    views.filter = new FilterPanel(dataset, selection, theme);
     views.history = new HistoryView(dataset, selection, theme);
     views.plots = {{QObject::tr("RGB"), "plots-rgb", new ContributionPlot(dataset, selection, theme)},
                    {QObject::tr("Luminance"), "plots-luminance", new LuminancePlot(dataset, selection, theme)},

@@ -9,6 +9,7 @@
 
 namespace emca::explorer {
 
+class FilterPanel;
 class HistoryView;
 class ImageView;
 class OutlierPanel;
@@ -34,6 +35,7 @@ struct Views {
     VertexTable* vertex = nullptr;
     HistoryView* history = nullptr;
     OutlierPanel* outliers = nullptr;
+    FilterPanel* filter = nullptr;
     std::vector<Plot> plots;
 
     static Views make(client::Dataset& dataset, client::Selection& selection, Theme& theme);

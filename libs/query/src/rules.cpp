@@ -29,6 +29,8 @@ bool bindsWeakly(const Node& node) {
 
 /// An expression as it may stand beside a comparison.
 Result<std::string> operand(std::string_view text) {
+    while (!text.empty() && isBlank(text.substr(0, 1))) text.remove_prefix(1);
+    while (!text.empty() && isBlank(text.substr(text.size() - 1))) text.remove_suffix(1);
     Node root;
     QueryError error;
     if (!detail::parseExpression(text, root, error)) return toError(text, error);

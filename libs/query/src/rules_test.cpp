@@ -134,7 +134,7 @@ TEST(Rules, ReadAsAPersonWouldWriteThem) {
     using enum RuleOperator;
     const PathSet paths = threePaths();
     EXPECT_EQ(*toQuery(Rule{"v.`BSDF pdf`", Quantifier::any, less, "1e-4"}, paths), "any(v.`BSDF pdf` < 1e-4)");
-    const std::vector<Rule> rules{{"luminance", {}, greater, "20 * mean(luminance)"}, {"", {}, less, "1"}, {"depth", {}, less, ""}, {"end", {}, equal, "absorbed"}};
+    const std::vector<Rule> rules{{"luminance", {}, greater, " 20 * mean(luminance) "}, {"", {}, less, "1"}, {"depth", {}, less, ""}, {"end", {}, equal, "absorbed"}};
     EXPECT_EQ(*toQuery(rules, paths), "luminance > 20 * mean(luminance) and end == \"absorbed\"");
     EXPECT_EQ(*toQuery(std::vector<Rule>{}, paths), "");
     // An expression that binds weakly stays one: rules are joined by `and`, whatever they say.
