@@ -36,7 +36,7 @@ QDockWidget::title { background: {panel}; padding: 6px 10px; text-align: left; b
 
 QTabWidget::pane { border: none; }
 QTabBar { background: {panel}; }
-QTabBar::tab { background: transparent; color: {mutedText}; padding: 6px 12px; border: none; border-bottom: 2px solid transparent; }
+QTabBar::tab { background: transparent; color: {mutedText}; padding: 6px 10px; border: none; border-bottom: 2px solid transparent; }
 QTabBar::tab:hover { color: {text}; }
 QTabBar::tab:selected { color: {text}; border-bottom: 2px solid {accent}; }
 
@@ -68,6 +68,8 @@ QComboBox QAbstractItemView { background: {raised}; border: 1px solid {border}; 
 
 QAbstractItemView { background: {ground}; border: none; outline: none; alternate-background-color: {ground}; }
 QAbstractItemView::item { padding: 2px 4px; }
+QListView#completions { background: {raised}; border: 1px solid {border}; }
+QListView#completions::item { padding: 4px 6px; }
 QAbstractItemView::item:hover { background: {panel}; }
 QAbstractItemView::item:selected { background: {selectedRow}; color: {text}; }
 QHeaderView { background: {panel}; }

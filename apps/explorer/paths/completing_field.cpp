@@ -6,6 +6,7 @@
 #include <QIcon>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QStandardItemModel>
 #include <algorithm>
 #include <utility>
@@ -14,13 +15,31 @@
 
 namespace emca::explorer {
 
+namespace {
+
+/// As small as the arrows of combo boxes: an action's icon would fill its square.
+QIcon smallArrow() {
+    constexpr int kSquare = 16, kArrow = 10, kRatio = 2;
+    QPixmap square(kSquare * kRatio, kSquare * kRatio);
+    square.fill(Qt::transparent);
+    QPainter painter(&square);
+    constexpr int kMargin = (kSquare - kArrow) / 2 * kRatio;
+    QIcon(QStringLiteral(":/emca/symbols/arrow-down.svg")).paint(&painter, square.rect().adjusted(kMargin, kMargin, -kMargin, -kMargin));
+    painter.end();
+    square.setDevicePixelRatio(kRatio);
+    return square;
+}
+
+}  // namespace
+
 CompletingField::CompletingField(QWidget* parent)
     : QLineEdit(parent), model_(new QStandardItemModel(this)), completer_(new QCompleter(model_, this)),
-      arrow_(addAction(QIcon(QStringLiteral(":/emca/symbols/arrow-down.svg")), QLineEdit::TrailingPosition)) {
+      arrow_(addAction(smallArrow(), QLineEdit::TrailingPosition)) {
     completer_->setCaseSensitivity(Qt::CaseInsensitive);
     completer_->setFilterMode(Qt::MatchContains);
     completer_->setMaxVisibleItems(14);
     setCompleter(completer_);
+    completer_->popup()->setObjectName(QStringLiteral("completions"));
     arrow_->setToolTip(tr("Show all"));
     arrow_->setVisible(false);
     connect(arrow_, &QAction::triggered, this, &CompletingField::showAll);

@@ -286,6 +286,7 @@ void FilterPanel::showAnswer() {
     else field_->removeUnderline();
     QString error = ruleError_;
     if (failed) error = toQString(model_->error().message);
+    if (!error.isEmpty()) error[0] = error[0].toUpper();
     if (!error.isEmpty() && !error.endsWith('.')) error += '.';
     const auto put = [](QLabel* where, const QString& text) {
         where->setText(text);

@@ -16,6 +16,7 @@ void OutlierModel::setReport(const PathSet& paths, const analysis::OutlierReport
     beginResetModel();
     found_.clear();
     found_.reserve(report.outliers.size());
+    tested_ = !report.steps.empty();
     const bool several = severalPixels(paths);
     for (const Index path : report.outliers) {
         const double value =
@@ -23,7 +24,12 @@ void OutlierModel::setReport(const PathSet& paths, const analysis::OutlierReport
         const double deviations = report.deviation > 0 && std::isfinite(value)
                                       ? (value - report.mean) / report.deviation
                                       : std::numeric_limits<double>::quiet_NaN();
-        found_.push_back({pathId(paths, path), pathText(paths, path, several), value, deviations});
+        const auto step = std::find_if(report.steps.begin(), report.steps.end(),
+                                       [path](const analysis::EsdStep& s) { return s.index == path; });
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        found_.push_back({pathId(paths, path), pathText(paths, path, several), value, deviations,
+                          step == report.steps.end() ? kNone : step->statistic,
+                          step == report.steps.end() ? kNone : step->critical});
     }
     const auto rank = [](const Found& f) {
         return std::isfinite(f.deviations) ? std::abs(f.deviations) : std::numeric_limits<double>::infinity();
@@ -54,6 +60,10 @@ QVariant OutlierModel::data(const QModelIndex& index, int role) const {
         case kValue:
             return toQString(analysis::formatNumber(found.value));
         case kDeviations:
+            if (tested_)
+                return std::isfinite(found.statistic) ? toQString(analysis::formatNumber(found.statistic)) + QStringLiteral(" > ") +
+                                                            toQString(analysis::formatNumber(found.critical))
+                                                      : QStringLiteral("–");
             if (!std::isfinite(found.deviations)) return QStringLiteral("–");
             return QString(found.deviations < 0 ? QStringLiteral("−") : QStringLiteral("+")) +
                    toQString(analysis::formatNumber(std::abs(found.deviations))) + QStringLiteral(" σ");
@@ -73,7 +83,7 @@ QVariant OutlierModel::headerData(int section, Qt::Orientation orientation, int 
         case kValue:
             return quantity_;
         case kDeviations:
-            return QStringLiteral("deviation");
+            return tested_ ? QStringLiteral("R > limit") : QStringLiteral("deviation");
         default:
             return {};
     }

@@ -8,7 +8,8 @@
 
 namespace emca::explorer {
 
-/// Paths that an outlier detector found: path, value, and how many deviations it is from the mean.
+/// Paths that an outlier detector found: path, value, and how many deviations it is from the mean; of the generalized ESD
+/// test its statistic and the critical value that it exceeds.
 class OutlierModel : public QAbstractTableModel {
     Q_OBJECT
   public:
@@ -18,6 +19,7 @@ class OutlierModel : public QAbstractTableModel {
         QString name;
         double value = 0;
         double deviations = 0;  ///< signed distance from the mean in standard deviations; NaN if there is none
+        double statistic = 0, critical = 0;  ///< R_i and lambda_i of the ESD test; NaN if it was not tested
     };
 
     explicit OutlierModel(QObject* parent = nullptr) : QAbstractTableModel(parent) {}
@@ -35,6 +37,7 @@ class OutlierModel : public QAbstractTableModel {
   private:
     std::vector<Found> found_;
     QString quantity_;
+    bool tested_ = false;   ///< by the ESD test
 };
 
 }  // namespace emca::explorer

@@ -9,6 +9,7 @@
 #include <QLocale>
 #include <QPushButton>
 #include <QScopedValueRollback>
+#include <QSpinBox>
 #include <QTableView>
 #include <algorithm>
 
@@ -21,6 +22,7 @@
 
 namespace emca::explorer {
 
+using analysis::OutlierMethod;
 using analysis::PathQuantity;
 
 namespace {
@@ -39,7 +41,10 @@ OutlierPanel::OutlierPanel(client::Dataset& dataset, client::Selection& selectio
       selection_(selection),
       model_(new OutlierModel(this)),
       quantity_(new QComboBox),
+      method_(new QComboBox),
       deviations_(new QDoubleSpinBox),
+      maximum_(new QSpinBox),
+      significance_(new QDoubleSpinBox),
       upperOnly_(new QCheckBox(tr("bright side only"))),
       automatic_(new QCheckBox(tr("select on new pixels"))),
       summary_(new QLabel),
@@ -67,25 +72,35 @@ void OutlierPanel::build() {
     deviations_->setValue(options_.deviations);
     deviations_->setSuffix(QStringLiteral(" σ"));
     deviations_->setPrefix(tr("mean ± "));
+    method_->addItem(tr("Mean ± m·σ"), int(OutlierMethod::meanDeviation));
+    method_->addItem(tr("Generalized ESD"), int(OutlierMethod::generalizedEsd));
+    method_->setToolTip(tr("Generalized ESD (Rosner 1983) removes the farthest value, one after the other, and tests each against\n"
+                           "those that are left: outliers do not hide each other by widening the deviation."));
+    maximum_->setLocale(QLocale::c());
+    maximum_->setRange(1, 100000);
+    maximum_->setPrefix(tr("at most "));
+    maximum_->setValue(int(options_.maximum));
+    maximum_->setToolTip(tr("How many outliers are looked for"));
+    significance_->setLocale(QLocale::c());
+    significance_->setDecimals(4);
+    significance_->setRange(0.0001, 0.5);
+    significance_->setSingleStep(0.01);
+    significance_->setPrefix(tr("α = "));
+    significance_->setValue(options_.significance);
+    significance_->setToolTip(tr("The chance to find any outlier where there is none, if values are normally distributed"));
     summary_->setProperty("role", "muted");
     summary_->setWordWrap(true);
-    table_->setModel(model_);
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    table_->setShowGrid(false);
-    table_->setFrameShape(QFrame::NoFrame);
-    table_->verticalHeader()->hide();
-    table_->verticalHeader()->setDefaultSectionSize(Spacing::row);
-    table_->horizontalHeader()->setHighlightSections(false);
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    table_->horizontalHeader()->setResizeContentsPrecision(64);  // rows that are measured
-    table_->horizontalHeader()->setSectionResizeMode(OutlierModel::kPath, QHeaderView::Stretch);
-    table_->horizontalHeader()->setMinimumSectionSize(fontMetrics().horizontalAdvance(QStringLiteral("Path 1,023")));
+    styleTable();
 
     auto* top = new QHBoxLayout;
     top->setSpacing(Spacing::small);
     top->addWidget(quantity_, 1);
-    top->addWidget(deviations_, 1);
+    top->addWidget(method_, 1);
+    auto* parameters = new QHBoxLayout;
+    parameters->setSpacing(Spacing::small);
+    parameters->addWidget(deviations_, 1);
+    parameters->addWidget(maximum_, 1);
+    parameters->addWidget(significance_, 1);
     auto* switches = new QHBoxLayout;
     switches->setSpacing(Spacing::large);
     switches->addWidget(upperOnly_);
@@ -98,16 +113,49 @@ void OutlierPanel::build() {
     layout->setContentsMargins(Spacing::medium, Spacing::small, Spacing::medium, Spacing::small);
     layout->setSpacing(Spacing::small);
     layout->addLayout(top);
+    layout->addLayout(parameters);
     layout->addLayout(switches);
     layout->addWidget(table_, 1);
     layout->addLayout(bottom);
+    showParameters();
+    connectControls();
+}
 
+void OutlierPanel::styleTable() {
+    table_->setModel(model_);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    table_->setShowGrid(false);
+    table_->setFrameShape(QFrame::NoFrame);
+    table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(Spacing::row);
+    table_->horizontalHeader()->setHighlightSections(false);
+    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    table_->horizontalHeader()->setResizeContentsPrecision(64);  // rows that are measured
+    table_->horizontalHeader()->setSectionResizeMode(OutlierModel::kPath, QHeaderView::Stretch);
+    table_->horizontalHeader()->setMinimumSectionSize(fontMetrics().horizontalAdvance(QStringLiteral("Path 1,023")));
+}
+
+void OutlierPanel::connectControls() {
     connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int i) {
         options_.quantity = kQuantities[i];
         detect();
     });
     connect(deviations_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double value) {
         options_.deviations = value;
+        detect();
+    });
+    connect(method_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+        options_.method = static_cast<OutlierMethod>(method_->currentData().toInt());
+        showParameters();
+        detect();
+    });
+    connect(maximum_, qOverload<int>(&QSpinBox::valueChanged), this, [this](int value) {
+        options_.maximum = static_cast<std::size_t>(value);
+        detect();
+    });
+    connect(significance_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double value) {
+        options_.significance = value;
         detect();
     });
     connect(upperOnly_, &QCheckBox::toggled, this, [this](bool on) {
@@ -121,10 +169,20 @@ void OutlierPanel::build() {
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &OutlierPanel::choose);
 }
 
+void OutlierPanel::showParameters() {
+    const bool test = options_.method == OutlierMethod::generalizedEsd;
+    deviations_->setVisible(!test);
+    maximum_->setVisible(test);
+    significance_->setVisible(test);
+}
+
 void OutlierPanel::setOptions(const analysis::OutlierOptions& options) {
     const auto at = std::find(std::begin(kQuantities), std::end(kQuantities), options.quantity);
     if (at != std::end(kQuantities)) quantity_->setCurrentIndex(int(at - std::begin(kQuantities)));
+    method_->setCurrentIndex(method_->findData(int(options.method)));
     deviations_->setValue(options.deviations);
+    maximum_->setValue(int(std::min<std::size_t>(options.maximum, 100000)));
+    significance_->setValue(options.significance);
     upperOnly_->setChecked(options.upperOnly);
 }
 
@@ -152,12 +210,28 @@ void OutlierPanel::reload() {
 
 QString OutlierPanel::summaryText() const {
     if (dataset_.paths().empty()) return {};
-    QString text = tr("%1 of %2 paths; mean %3, σ %4")
-                       .arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()),
-                            number(report_.mean), number(report_.deviation));
+    QString text = tr("%1 of %2 paths.").arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()));
+    const bool test = options_.method == OutlierMethod::generalizedEsd;
+    if (test) text += ' ' + testText();
+    text += tr(" %1: mean %2, σ %3").arg(test ? tr("The others") : tr("All"), number(report_.mean), number(report_.deviation));
+    // Without limits there is nothing to be beyond.
+    if (report_.considered >= 2 && report_.deviation > 0) {
+        if (test) text += tr("; from %1 to %2").arg(number(report_.lower), number(report_.upper));
+        else if (options_.upperOnly) text += tr("; limit %1").arg(number(report_.upper));
+        else text += tr("; limits %1 and %2").arg(number(report_.lower), number(report_.upper));
+    }
     if (report_.notFinite > 0) text += tr("; %1 NaN or infinite").arg(grouped(report_.notFinite));
     if (report_.withoutValue > 0) text += tr("; %1 without final estimate").arg(grouped(report_.withoutValue));
     return text;
+}
+
+QString OutlierPanel::testText() const {
+    if (report_.maximumReached()) return tr("Every one that was tested: raise \"at most\", there may be more.");
+    const std::size_t found = report_.outliers.size() - report_.notFinite;
+    if (found >= report_.steps.size()) return {};
+    const analysis::EsdStep& next = report_.steps[found];
+    return tr("%1 tested; the next one, %2, has R = %3, its limit is %4.")
+        .arg(grouped(report_.steps.size()), number(next.value), number(next.statistic), number(next.critical));
 }
 
 void OutlierPanel::updateState() {
@@ -166,8 +240,9 @@ void OutlierPanel::updateState() {
     if (dataset_.paths().empty()) {
         overlay_->showEmpty(tr("Outliers of a pixel"), tr("Click a pixel in the image"));
     } else if (model_->found().empty()) {
-        overlay_->showEmpty(tr("No outliers beyond %1 σ").arg(options_.deviations),
-                            tr("Lower the limit, or try another quantity"));
+        const bool test = options_.method == OutlierMethod::generalizedEsd;
+        overlay_->showEmpty(test ? tr("No outliers at α = %1").arg(options_.significance) : tr("No outliers beyond %1 σ").arg(options_.deviations),
+                            test ? tr("Look for more of them, or try another quantity") : tr("Lower the limit, or try another quantity"));
     } else {
         overlay_->clear();
     }

@@ -12,6 +12,7 @@ class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
+class QSpinBox;
 class QTableView;
 
 namespace emca::explorer {
@@ -20,7 +21,7 @@ class OutlierModel;
 class StateOverlay;
 class Theme;
 
-/// Finds paths that stand out: beyond mean ± m·σ of a quantity, NaN and infinite ones always. The list follows the
+/// Finds paths that stand out: beyond mean ± m·σ of a quantity, or by the generalized ESD test; NaN and infinite ones always. The list follows the
 /// shown pixel; with "select on new pixels" what is found becomes the selection of all views.
 class OutlierPanel : public QWidget {
     Q_OBJECT
@@ -41,6 +42,10 @@ class OutlierPanel : public QWidget {
 
   private:
     void build();
+    void styleTable();
+    void connectControls();
+    void showParameters();
+    QString testText() const;  ///< what the ESD test says, step by step
     void detect();
     void reload();
     void follow();  ///< marks in the list what the Selection says
@@ -53,7 +58,10 @@ class OutlierPanel : public QWidget {
     analysis::OutlierReport report_;
     OutlierModel* model_;
     QComboBox* quantity_;
+    QComboBox* method_;
     QDoubleSpinBox* deviations_;
+    QSpinBox* maximum_;
+    QDoubleSpinBox* significance_;
     QCheckBox* upperOnly_;
     QCheckBox* automatic_;
     QLabel* summary_;

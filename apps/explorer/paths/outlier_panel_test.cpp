@@ -4,7 +4,9 @@
 
 #include <QAbstractItemModelTester>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTableView>
 #include <QTest>
 #include <limits>
@@ -104,6 +106,56 @@ TEST_F(OutlierPanelTest, RowsAndSelectionFollowEachOther) {
     EXPECT_EQ(selection.state().paths, std::vector<PathId>{panel.model().found()[2].id});
     selection.setPaths({panel.model().found()[0].id, panel.model().found()[3].id});
     EXPECT_EQ(table.selectionModel()->selectedRows().size(), 2);
+}
+
+TEST_F(OutlierPanelTest, TheTestFindsOutliersThatHideEachOther) {
+    // Half of 20 values, less one, are tested. Two a little apart from each other and far from the rest widen sigma so much that neither is beyond 3 of it.
+    std::vector<Color> estimates;
+    for (int i = 0; i < 18; ++i) estimates.emplace_back(1 + 0.01f * float(i % 7));
+    estimates.emplace_back(50.f);
+    estimates.emplace_back(52.f);
+    dataset.addTrace(test::traceOf(test::pathsWithEstimates(estimates), {3, 4}));
+    EXPECT_TRUE(panel.model().found().empty());
+    QComboBox* method = nullptr;
+    for (QComboBox* box : panel.findChildren<QComboBox*>())
+        if (box->findText("Generalized ESD") >= 0) method = box;
+    ASSERT_TRUE(method);
+    auto* maximum = panel.findChild<QSpinBox*>();
+    EXPECT_FALSE(maximum->isVisible());
+    method->setFocus();
+    QTest::keyClick(method, Qt::Key_Down);
+    EXPECT_EQ(panel.options().method, analysis::OutlierMethod::generalizedEsd);
+    EXPECT_TRUE(maximum->isVisible());
+    ASSERT_EQ(panel.model().found().size(), 2u);
+    EXPECT_EQ(panel.model().found()[0].id.sample, 19);
+    EXPECT_GT(panel.model().found()[0].statistic, panel.model().found()[0].critical);
+    EXPECT_TRUE(panel.model().index(0, OutlierModel::kDeviations).data().toString().contains(" > "));
+    EXPECT_TRUE(panel.summaryText().contains("2 of 20 paths.")) << panel.summaryText().toStdString();
+    EXPECT_TRUE(panel.summaryText().contains("9 tested; the next one")) << panel.summaryText().toStdString();
+    maximum->setFocus();
+    maximum->selectAll();
+    QTest::keyClicks(maximum, "1");
+    QTest::keyClick(maximum, Qt::Key_Return);
+    EXPECT_EQ(panel.options().maximum, 1u);
+    QTest::keyClick(maximum, Qt::Key_Up);
+    EXPECT_EQ(panel.options().maximum, 2u);
+    EXPECT_EQ(panel.model().found().size(), 2u);
+    EXPECT_TRUE(panel.summaryText().contains("there may be more")) << panel.summaryText().toStdString();
+    panel.selectFound();
+    EXPECT_EQ(selection.state().paths.size(), 2u);
+    QTest::keyClick(method, Qt::Key_Up);
+    EXPECT_FALSE(maximum->isVisible());
+    EXPECT_TRUE(panel.summaryText().contains("limits")) << panel.summaryText().toStdString();
+}
+
+TEST_F(OutlierPanelTest, TheTestRunsByItselfOnNewPixels) {
+    panel.setOptions({.method = analysis::OutlierMethod::generalizedEsd, .upperOnly = true, .maximum = 3, .significance = 0.001});
+    EXPECT_EQ(panel.options().maximum, 3u);
+    EXPECT_EQ(panel.options().significance, 0.001);
+    panel.setAutomatic(true);
+    dataset.addTrace(test::traceOf(fakePaths({.samples = 1024, .vertices = 0, .firefly = 417})));
+    EXPECT_TRUE(selection.isSelected(id(417)));
+    EXPECT_EQ(selection.state().currentPath, id(417)) << "the farthest";
 }
 
 TEST(OutlierModel, ObeysTheRulesOfItemModels) {

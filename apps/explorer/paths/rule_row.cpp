@@ -44,6 +44,7 @@ RuleRow::RuleRow(const PathSet& paths, QWidget* parent)
     remove_->setStyleSheet(QStringLiteral("padding: 0; font-size: 16px;"));
     over_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     operator_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    operator_->setMinimumContentsLength(8);
     fitOperators();
     arrange(false);
     connect(quantity_, &CompletingField::edited, this, [this] {
@@ -101,6 +102,7 @@ void RuleRow::fitOperators() {
         over_->addItems(quantifiers(owner));
         if (over_->count() > 0) over_->setCurrentIndex(std::max(0, before));
         over_->setVisible(owner != query::Owner::path);
+        arrange(wide_);
     }
     value_->setVisible(query::needsValue(rule().op));
     if (type == query::ExpressionType::text) {
@@ -125,7 +127,9 @@ void RuleRow::arrange(bool wide) {
         layout_->addWidget(remove_, 0, 4);
     } else {
         layout_->addWidget(over_, 0, 0);
-        layout_->addWidget(quantity_, 0, 1, 1, 2);
+        // A path has one value: its name begins where "any vertex" would.
+        const int first = over_->isHidden() ? 0 : 1;
+        layout_->addWidget(quantity_, 0, first, 1, 3 - first);
         layout_->addWidget(remove_, 0, 3);
         layout_->addWidget(operator_, 1, 0);
         layout_->addWidget(value_, 1, 1, 1, 2);

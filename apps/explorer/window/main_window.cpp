@@ -134,7 +134,7 @@ void MainWindow::arrange() {
     for (const auto& [name, made] : docks_) made->show();
 
     const int w = width(), h = height() - 120;
-    const int toolsWidth = std::min(340, w * 21 / 100), left = w * 2 / 5, right = w - left;
+    const int toolsWidth = std::min(364, w * 23 / 100), left = w * 2 / 5, right = w - left;
     resizeDocks({image, scene, tools}, {left, right - toolsWidth, toolsWidth}, Qt::Horizontal);
     if (!views_.plots.empty()) resizeDocks({image, dock(views_.plots.front().name)}, {h * 56 / 100, h * 44 / 100}, Qt::Vertical);
     resizeDocks({scene, dock("paths")}, {h * 58 / 100, h * 42 / 100}, Qt::Vertical);
