@@ -17,8 +17,10 @@ from .columns import Column
 from .connection import Connection, ServerInfo, connect
 from .errors import (Cancelled, ConnectionError, Error, FileError, InputError, NotRecordedError, QueryError, QueryWarning, ServerError,
                      TimeoutError)
+from .events import Event, Lobe
 from .image import Image
-from .paths import Contributions, Event, Lobe, Matches, NextEvents, PathSet, Splats, Vertices, merge
+from .paths import Contributions, NextEvents, PathSet, Splats, Vertices, merge
+from .queries import Matches
 from .renderer import PathRecorder, Recording, Renderer, RendererInfo, RenderSettings, RequestMonitor, SeedMap, Server, recorder, serve
 from .scene import Camera, Color, ColorA, LayerDescription, Mesh, Surface, SurfaceLayer
 from .session import Session, open, save

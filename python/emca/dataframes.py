@@ -70,7 +70,7 @@ def path_frame(paths: "PathSet") -> Any:
 
 
 def vertex_frame(paths: "PathSet") -> Any:
-    from .paths import Event, Lobe
+    from .events import Event, Lobe
     pandas = _pandas()
     vertices = paths.vertices
     out: Dict[str, Any] = {"path": vertices.path, "depth": vertices.depth, "light subpath": vertices.on_light_subpath}

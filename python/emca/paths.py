@@ -7,76 +7,20 @@ copy, read-only, valid as long as they live, whatever becomes of connection and 
 
 from __future__ import annotations
 
-import enum
 import functools
-import warnings
-from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _native
 from .columns import Column, ColumnNames
-from .errors import NotRecordedError, QueryWarning
+from .errors import NotRecordedError
+from .queries import Matches, masked, warn_of
 
-__all__ = ["Event", "Lobe", "PathSet", "Vertices", "Contributions", "NextEvents", "Splats", "Matches", "merge"]
+if TYPE_CHECKING:
+    from .table import Table
 
-
-class Event(enum.IntEnum):
-    """What happened at a vertex."""
-
-    none = 0
-    reflect = 1
-    transmit = 2
-    volume = 3  #: scattering in a medium
-    emission = 4  #: the walk ended on an emitter
-    background = 5  #: the walk left the scene
-    absorb = 6  #: the walk ended without light
-    # "pass" is a keyword of Python.
-    pass_ = 7  #: went straight through
-
-
-class Lobe(enum.IntEnum):
-    """How concentrated the scattering was."""
-
-    none = 0
-    diffuse = 1
-    glossy = 2
-    specular = 3
-    straight = 4
-
-
-class Matches(NamedTuple):
-    """What a query found.
-
-    Attributes:
-        paths: (k,) positions of the paths for which it is true, ascending, uint32.
-        unknown: paths for which it is neither true nor false, since something was not recorded.
-        missing: names that the query reads and no path has.
-    """
-
-    paths: np.ndarray
-    unknown: int
-    missing: List[str]
-
-
-def _warn_of(missing: Sequence[str]) -> None:
-    if missing:
-        names = ", ".join(repr(name) for name in missing)
-        warnings.warn(f"The query reads {names}, which no path has.", QueryWarning, stacklevel=4)
-
-
-def masked(values: Any, known: np.ndarray, kind: str) -> np.ma.MaskedArray:
-    """Values of the query language: unknown ones are masked. Texts become an object array, conditions bool."""
-    if kind == "text":
-        data = np.array(values, dtype=object)
-    elif kind == "condition":
-        data = values != 0
-    else:
-        data = values
-    mask = ~known
-    if data.ndim > 1:
-        mask = np.broadcast_to(mask[:, None], data.shape)
-    return np.ma.MaskedArray(data, mask=mask)
+__all__ = ["PathSet", "Vertices", "Contributions", "NextEvents", "Splats", "merge"]
 
 
 class _Part:
@@ -198,12 +142,12 @@ class Vertices(_Part):
 
     @functools.cached_property
     def event(self) -> np.ndarray:
-        """(m,) uint8 view: an :class:`Event`; 0 where none was recorded. Raises NotRecordedError."""
+        """(m,) uint8 view: an :class:`emca.Event`; 0 where none was recorded. Raises NotRecordedError."""
         return self._array("event", len(self), "event of vertices")
 
     @functools.cached_property
     def lobe(self) -> np.ndarray:
-        """(m,) uint8 view: a :class:`Lobe`; see ``has_event``. Raises NotRecordedError."""
+        """(m,) uint8 view: a :class:`emca.Lobe`; see ``has_event``. Raises NotRecordedError."""
         return self._array("lobe", len(self), "event of vertices")
 
     @functools.cached_property
@@ -460,13 +404,13 @@ class PathSet(_Part):
         Returns (k,) uint32, ascending. Warns (QueryWarning) of names that no path has. Raises QueryError.
         """
         found = self.match(query)
-        _warn_of(found.missing)
+        warn_of(found.missing)
         return found.paths
 
     def where(self, query: str) -> "PathSet":
         """The paths for which a query is true, as a set of their own. Copies them. Raises QueryError."""
         found = self.match(query)
-        _warn_of(found.missing)
+        warn_of(found.missing)
         return self.subset(found.paths)
 
     def evaluate(self, expression: str) -> np.ma.MaskedArray:
@@ -476,7 +420,7 @@ class PathSet(_Part):
         colours and vectors: (n, components) float64; conditions: bool; texts: object. Raises QueryError.
         """
         (kind, values, known), missing = _native.evaluate(self._native, expression)
-        _warn_of(missing)
+        warn_of(missing)
         return masked(values, known, kind)
 
     def table(self, query: str) -> "Table":
@@ -486,7 +430,7 @@ class PathSet(_Part):
         """
         from .table import Table
         columns, rows, missing = _native.table(self._native, query)
-        _warn_of(missing)
+        warn_of(missing)
         return Table(columns, rows)
 
     # -- other sets

@@ -6,7 +6,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Sequence
 
 import numpy as np
 
-from .paths import masked
+from .queries import masked
 
 __all__ = ["Table"]
 

@@ -21,7 +21,8 @@ PathQuantity toQuantity(const std::string& name) {
     constexpr const char* kNames[] = {"sample", "luminance", "red", "green", "blue", "depth", "vertex count"};
     for (std::size_t i = 0; i < std::size(kNames); ++i)
         if (name == kNames[i]) return static_cast<PathQuantity>(i);
-    throw py::value_error("there is no quantity \"" + name + "\": choose sample, luminance, red, green, blue, depth or vertex count");
+    throw py::value_error("there is no quantity \"" + name +
+                          "\": choose sample, luminance, red, green, blue, depth or vertex count");
 }
 
 py::dict toDict(OutlierReport report) {
@@ -44,20 +45,31 @@ py::dict toDict(OutlierReport report) {
 
 OutlierOptions outlierOptions(bool esd, double deviations, bool upperOnly, std::size_t maximum, double significance) {
     return {.method = esd ? OutlierMethod::generalizedEsd : OutlierMethod::meanDeviation,
-            .deviations = deviations, .upperOnly = upperOnly, .maximum = maximum, .significance = significance};
+            .deviations = deviations,
+            .upperOnly = upperOnly,
+            .maximum = maximum,
+            .significance = significance};
 }
 
-py::dict pathOutliers(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly, std::size_t maximum, double significance) {
+py::dict pathOutliers(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly,
+                      std::size_t maximum, double significance) {
     OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
     options.quantity = toQuantity(quantity);
-    const auto detect = [&] { const Unlocked unlocked; return detectOutliers(paths, options); };
+    const auto detect = [&] {
+        const Unlocked unlocked;
+        return detectOutliers(paths, options);
+    };
     return toDict(unwrap(detect()));
 }
 
-py::dict valueOutliers(py::handle given, bool esd, double deviations, bool upperOnly, std::size_t maximum, double significance) {
+py::dict valueOutliers(py::handle given, bool esd, double deviations, bool upperOnly, std::size_t maximum,
+                       double significance) {
     const OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
     const std::vector<double> values = toDoubles(given);
-    const auto detect = [&] { const Unlocked unlocked; return detectOutliers(values, options); };
+    const auto detect = [&] {
+        const Unlocked unlocked;
+        return detectOutliers(values, options);
+    };
     return toDict(unwrap(detect()));
 }
 
@@ -86,11 +98,12 @@ py::tuple makeHistogram(py::handle given, std::size_t bins, py::handle range, bo
         if (ends.size() != 2) throw py::value_error("a range has two ends");
         chosen = {ends[0], ends[1], log};
     }
-    Histogram made = histogram(std::span<const double>(values), chosen, bins > 0 ? bins : suggestedBins(values, chosen));
+    Histogram made =
+        histogram(std::span<const double>(values), chosen, bins > 0 ? bins : suggestedBins(values, chosen));
     std::vector<double> edges(made.binCount() + 1);
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = made.lower(i);
-    return py::make_tuple(moved(std::move(made.counts), Number::uint64), moved(std::move(edges), Number::float64), made.below, made.above,
-                          made.nan, made.positiveInfinite, made.negativeInfinite);
+    return py::make_tuple(moved(std::move(made.counts), Number::uint64), moved(std::move(edges), Number::float64),
+                          made.below, made.above, made.nan, made.positiveInfinite, made.negativeInfinite);
 }
 
 py::object toOwnedArray(Image image) {
@@ -105,19 +118,25 @@ py::object difference(py::handle image, py::handle reference, const std::string&
 }
 
 /// (error image, (start, stop, count) of the exposures)
-py::tuple flipImages(py::handle given, py::handle givenReference, bool high, py::handle pixelsPerDegree, py::handle exposures) {
+py::tuple flipImages(py::handle given, py::handle givenReference, bool high, py::handle pixelsPerDegree,
+                     py::handle exposures) {
     FlipOptions options;
     options.range = high ? FlipRange::high : FlipRange::low;
     if (!pixelsPerDegree.is_none()) options.pixelsPerDegree = pixelsPerDegree.cast<double>();
     if (!exposures.is_none()) {
         const auto three = py::reinterpret_borrow<py::sequence>(exposures);
         if (three.size() != 3) throw py::value_error("exposures are (start, stop, count)");
-        options.exposures = FlipExposures{three[0].cast<double>(), three[1].cast<double>(), three[2].cast<std::uint32_t>()};
+        options.exposures =
+            FlipExposures{three[0].cast<double>(), three[1].cast<double>(), three[2].cast<std::uint32_t>()};
     }
     const Image image = toImage(given), reference = toImage(givenReference);
-    const auto compared = [&] { const Unlocked unlocked; return flip(image, reference, options); };
+    const auto compared = [&] {
+        const Unlocked unlocked;
+        return flip(image, reference, options);
+    };
     FlipResult result = unwrap(compared());
-    return py::make_tuple(toOwnedArray(std::move(result.error)), py::make_tuple(result.exposures.start, result.exposures.stop, result.exposures.count));
+    return py::make_tuple(toOwnedArray(std::move(result.error)),
+                          py::make_tuple(result.exposures.start, result.exposures.stop, result.exposures.count));
 }
 
 PixelRect toRect(py::handle rect) {
@@ -162,7 +181,8 @@ py::list fireflies(py::handle image, int radius, float ratio, std::size_t maximu
 void bindAnalysis(py::module_& module) {
     module.def("path_outliers", &pathOutliers);
     module.def("value_outliers", &valueOutliers);
-    module.def("summarize", [](py::handle values) { return toDict(summarize(std::span<const double>(toDoubles(values)))); });
+    module.def("summarize",
+               [](py::handle values) { return toDict(summarize(std::span<const double>(toDoubles(values)))); });
     module.def("histogram", &makeHistogram);
     module.def("difference", &difference);
     module.def("flip", &flipImages);

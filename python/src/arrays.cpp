@@ -7,14 +7,22 @@ namespace {
 
 py::dtype dtypeOf(Number number) {
     switch (number) {
-        case Number::boolean: return py::dtype::of<bool>();
-        case Number::uint8: return py::dtype::of<std::uint8_t>();
-        case Number::uint32: return py::dtype::of<std::uint32_t>();
-        case Number::uint64: return py::dtype::of<std::uint64_t>();
-        case Number::int32: return py::dtype::of<std::int32_t>();
-        case Number::int64: return py::dtype::of<std::int64_t>();
-        case Number::float32: return py::dtype::of<float>();
-        case Number::float64: break;
+        case Number::boolean:
+            return py::dtype::of<bool>();
+        case Number::uint8:
+            return py::dtype::of<std::uint8_t>();
+        case Number::uint32:
+            return py::dtype::of<std::uint32_t>();
+        case Number::uint64:
+            return py::dtype::of<std::uint64_t>();
+        case Number::int32:
+            return py::dtype::of<std::int32_t>();
+        case Number::int64:
+            return py::dtype::of<std::int64_t>();
+        case Number::float32:
+            return py::dtype::of<float>();
+        case Number::float64:
+            break;
     }
     return py::dtype::of<double>();
 }
@@ -68,8 +76,10 @@ py::object view(const void* data, Number number, std::size_t count, std::size_t 
     return readOnly(py::array(dtypeOf(number), std::move(shape), std::move(strides), data, baseOf(std::move(owner))));
 }
 
-py::object imageView(const float* data, std::size_t height, std::size_t width, std::size_t channels, std::shared_ptr<const void> owner) {
-    const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(height), static_cast<py::ssize_t>(width), static_cast<py::ssize_t>(channels)};
+py::object imageView(const float* data, std::size_t height, std::size_t width, std::size_t channels,
+                     std::shared_ptr<const void> owner) {
+    const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(height), static_cast<py::ssize_t>(width),
+                                         static_cast<py::ssize_t>(channels)};
     if (height * width * channels == 0) return readOnly(py::array(py::dtype::of<float>(), shape));
     return readOnly(py::array(py::dtype::of<float>(), shape, data, baseOf(std::move(owner))));
 }

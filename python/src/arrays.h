@@ -30,12 +30,14 @@ constexpr std::size_t byteSize(Number number) {
 py::object view(const void* data, Number number, std::size_t count, std::size_t components, std::size_t stride,
                 std::shared_ptr<const void> owner);
 /// A read-only image of shape (height, width, channels). No copy.
-py::object imageView(const float* data, std::size_t height, std::size_t width, std::size_t channels, std::shared_ptr<const void> owner);
+py::object imageView(const float* data, std::size_t height, std::size_t width, std::size_t channels,
+                     std::shared_ptr<const void> owner);
 
 /// A part of every entry of a shared array: `components` numbers at byte `offset` of it.
 template <typename T>
 py::object view(const SharedArray<T>& from, Number number, std::size_t components = 1, std::size_t offset = 0) {
-    return view(reinterpret_cast<const std::byte*>(from.data()) + offset, number, from.size(), components, sizeof(T), from.owner());
+    return view(reinterpret_cast<const std::byte*>(from.data()) + offset, number, from.size(), components, sizeof(T),
+                from.owner());
 }
 
 /// The vector's own memory as an array of shape (n,), or (n, components).
@@ -49,13 +51,13 @@ py::object moved(std::vector<T> values, Number number, std::size_t components = 
 
 /// Any array-like of numbers.
 struct Numbers {
-    std::vector<float> values;         ///< row by row
+    std::vector<float> values;  ///< row by row
     std::vector<std::size_t> shape;
 };
 /// Errors (as Python exceptions): whatever numpy says about what is no array of numbers.
 Numbers toFloats(py::handle array);
 std::vector<double> toDoubles(py::handle array);
-std::vector<std::uint32_t> toIndices(py::handle array);   ///< flattened; negative ones raise ValueError
+std::vector<std::uint32_t> toIndices(py::handle array);  ///< flattened; negative ones raise ValueError
 
 /// Three numbers, from any sequence or array of three. Raises TypeError or ValueError that names `what`.
 Vec3f toVec3(py::handle value, const char* what);

@@ -32,8 +32,11 @@ class SharedConnection {
     std::unique_ptr<client::Connection> connection_;
 };
 
-std::unique_ptr<SharedConnection> connect(const std::string& address, std::string token, double timeout, double silence) {
-    const auto milliseconds = [](double seconds) { return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000)); };
+std::unique_ptr<SharedConnection> connect(const std::string& address, std::string token, double timeout,
+                                          double silence) {
+    const auto milliseconds = [](double seconds) {
+        return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+    };
     const client::Address where = unwrap(client::Address::parse(address));
     client::Connection::Options options;
     options.token = std::move(token);
@@ -45,8 +48,9 @@ std::unique_ptr<SharedConnection> connect(const std::string& address, std::strin
     return std::make_unique<SharedConnection>(unwrap(std::move(**opened)));
 }
 
-py::tuple render(const SharedConnection& connection, std::uint32_t samplesPerPixel, std::optional<std::uint64_t> seed, std::string integrator,
-                 std::string sampler, std::vector<std::string> layers, std::uint64_t surfaceBudget, const py::object& progress) {
+py::tuple render(const SharedConnection& connection, std::uint32_t samplesPerPixel, std::optional<std::uint64_t> seed,
+                 std::string integrator, std::string sampler, std::vector<std::string> layers,
+                 std::uint64_t surfaceBudget, const py::object& progress) {
     client::RenderOptions options;
     options.samplesPerPixel = samplesPerPixel;
     options.hasSeed = seed.has_value();
@@ -56,7 +60,8 @@ py::tuple render(const SharedConnection& connection, std::uint32_t samplesPerPix
     options.preview = false;
     options.layers = std::move(layers);
     options.surfaceBudget = surfaceBudget;
-    client::Render done = await([&](const RequestObserver& observer) { return connection->render(options, observer); }, progress);
+    client::Render done =
+        await([&](const RequestObserver& observer) { return connection->render(options, observer); }, progress);
     py::list collected;
     for (const LayerDescription& layer : done.layers) collected.append(toText(layer.name));
     auto entry = std::make_shared<client::ImageEntry>();
@@ -94,27 +99,38 @@ client::TraceOptions traceOptions(const py::dict& given) {
 using SharedTrace = std::shared_ptr<client::Trace>;
 SharedTrace shared(client::Trace trace) { return std::make_shared<client::Trace>(std::move(trace)); }
 
-SharedTrace tracePixel(const SharedConnection& connection, std::uint32_t x, std::uint32_t y, const py::dict& given, const py::object& progress) {
+SharedTrace tracePixel(const SharedConnection& connection, std::uint32_t x, std::uint32_t y, const py::dict& given,
+                       const py::object& progress) {
     const client::TraceOptions options = traceOptions(given);
-    return shared(await([&](const RequestObserver& observer) { return connection->tracePixel({x, y}, options, observer); }, progress));
+    return shared(await(
+        [&](const RequestObserver& observer) {
+            return connection->tracePixel({x, y}, options, observer);
+        },
+        progress));
 }
 
-SharedTrace tracePixels(const SharedConnection& connection, py::handle pixels, const py::dict& given, const py::object& progress) {
+SharedTrace tracePixels(const SharedConnection& connection, py::handle pixels, const py::dict& given,
+                        const py::object& progress) {
     const client::TraceOptions options = traceOptions(given);
     const std::vector<std::uint32_t> numbers = toIndices(pixels);
     std::vector<Pixel> chosen(numbers.size() / 2);
     for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = {numbers[2 * i], numbers[2 * i + 1]};
-    return shared(await([&](const RequestObserver& observer) { return connection->tracePixels(chosen, options, observer); }, progress));
+    return shared(await(
+        [&](const RequestObserver& observer) { return connection->tracePixels(chosen, options, observer); }, progress));
 }
 
-SharedTrace traceRect(const SharedConnection& connection, std::array<std::uint32_t, 4> rect, const py::dict& given, const py::object& progress) {
+SharedTrace traceRect(const SharedConnection& connection, std::array<std::uint32_t, 4> rect, const py::dict& given,
+                      const py::object& progress) {
     const client::TraceOptions options = traceOptions(given);
     const PixelRect chosen{rect[0], rect[1], rect[2], rect[3]};
-    return shared(await([&](const RequestObserver& observer) { return connection->traceRect(chosen, options, observer); }, progress));
+    return shared(await(
+        [&](const RequestObserver& observer) { return connection->traceRect(chosen, options, observer); }, progress));
 }
 
-SharedField surface(const SharedConnection& connection, std::uint64_t renderId, const std::vector<std::string>& layers, const py::object& progress) {
-    SurfaceField field = await([&](const RequestObserver& observer) { return connection->surface(renderId, layers, observer); }, progress);
+SharedField surface(const SharedConnection& connection, std::uint64_t renderId, const std::vector<std::string>& layers,
+                    const py::object& progress) {
+    SurfaceField field = await(
+        [&](const RequestObserver& observer) { return connection->surface(renderId, layers, observer); }, progress);
     return {std::make_shared<const SurfaceField>(std::move(field))};
 }
 
@@ -123,9 +139,11 @@ py::list meshes(const SharedConnection& connection, const py::object& progress) 
     return toList(std::make_shared<const std::vector<Mesh>>(std::move(all)));
 }
 
-py::bytes askTool(const SharedConnection& connection, const std::string& tool, const std::string& request, const py::object& progress) {
+py::bytes askTool(const SharedConnection& connection, const std::string& tool, const std::string& request,
+                  const py::object& progress) {
     const std::span bytes(reinterpret_cast<const std::byte*>(request.data()), request.size());
-    const auto answer = await([&](const RequestObserver& observer) { return connection->askTool(tool, bytes, observer); }, progress);
+    const auto answer =
+        await([&](const RequestObserver& observer) { return connection->askTool(tool, bytes, observer); }, progress);
     return py::bytes(reinterpret_cast<const char*>(answer.data()), answer.size());
 }
 
@@ -137,10 +155,18 @@ void bindConnection(py::module_& module) {
     py::class_<SharedConnection>(module, "Connection")
         .def("address", [](const SharedConnection& c) { return c->address().text(); })
         .def("is_open", [](const SharedConnection& c) { return c->isOpen(); })
-        .def("close", [](const SharedConnection& c) { const Unlocked unlocked; c->close(); })
+        .def("close",
+             [](const SharedConnection& c) {
+                 const Unlocked unlocked;
+                 c->close();
+             })
         .def("info", [](const SharedConnection& c) { return await([&](const RequestObserver&) { return c->info(); }); })
-        .def("camera", [](const SharedConnection& c) { return toDict(await([&](const RequestObserver&) { return c->camera(); })); })
-        .def("quit_server", [](const SharedConnection& c) { await([&](const RequestObserver&) { return c->quitServer(); }); })
+        .def("camera",
+             [](const SharedConnection& c) {
+                 return toDict(await([&](const RequestObserver&) { return c->camera(); }));
+             })
+        .def("quit_server",
+             [](const SharedConnection& c) { await([&](const RequestObserver&) { return c->quitServer(); }); })
         .def("meshes", &meshes)
         .def("render", &render)
         .def("surface", &surface)

@@ -10,7 +10,8 @@ py::module_ errorsModule() { return py::module_::import("emca.errors"); }
 /// Characters of UTF-8 text before a byte: Python counts characters.
 std::size_t characters(const std::string& text, std::size_t bytes) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < bytes && i < text.size(); ++i) count += (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80;
+    for (std::size_t i = 0; i < bytes && i < text.size(); ++i)
+        count += (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80;
     return count;
 }
 
@@ -25,10 +26,12 @@ py::object Failure::toPython() const {
 
 Error toError(py::error_already_set& exception, const char* where) {
     try {
-        const py::tuple described = errorsModule().attr("_describe")(exception.type(), exception.value(), exception.trace(), where);
+        const py::tuple described =
+            errorsModule().attr("_describe")(exception.type(), exception.value(), exception.trace(), where);
         return {static_cast<ErrorCode>(described[0].cast<int>()), described[1].cast<std::string>()};
     } catch (py::error_already_set&) {
-        return {ErrorCode::rendererFailed, std::string("The renderer's ") + where + " raised an exception that cannot be described."};
+        return {ErrorCode::rendererFailed,
+                std::string("The renderer's ") + where + " raised an exception that cannot be described."};
     }
 }
 

@@ -41,7 +41,8 @@ py::dict settingsOf(const ImageEntry& entry) {
 std::shared_ptr<ImageEntry> makeImage(py::handle array, std::vector<std::string> channels, std::string title) {
     auto entry = std::make_shared<ImageEntry>();
     entry->title = std::move(title);
-    entry->image = std::make_shared<const RenderedImage>(RenderedImage{.color = toImage(array, std::move(channels)), .samples = {}, .variance = {}});
+    entry->image = std::make_shared<const RenderedImage>(
+        RenderedImage{.color = toImage(array, std::move(channels)), .samples = {}, .variance = {}});
     return entry;
 }
 
@@ -69,7 +70,8 @@ py::object toArray(const Image& image, std::shared_ptr<const void> owner) {
 void bindImages(py::module_& module) {
     py::class_<ImageEntry, std::shared_ptr<ImageEntry>>(module, "Image")
         .def("settings", &settingsOf)
-        .def("array", [](const ImageEntry& entry, const std::string& which) { return toArray(chosen(entry, which), entry.image); })
+        .def("array", [](const ImageEntry& entry,
+                         const std::string& which) { return toArray(chosen(entry, which), entry.image); })
         .def("channels", [](const ImageEntry& entry) { return toList(entry.image->color.channels()); })
         .def("set_title", [](ImageEntry& entry, std::string title) { entry.title = std::move(title); });
     module.def("make_image", &makeImage);

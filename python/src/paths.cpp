@@ -71,11 +71,20 @@ py::object array(const PathSet& paths, const std::string& name) {
 
 Number numberOf(ValueType type) {
     switch (type) {
-        case ValueType::boolean: return Number::boolean;
-        case ValueType::integer: case ValueType::integer2: case ValueType::integer3: return Number::int64;
-        case ValueType::double1: case ValueType::double2: case ValueType::double3: return Number::float64;
-        case ValueType::text: return Number::uint32;
-        default: return Number::float32;
+        case ValueType::boolean:
+            return Number::boolean;
+        case ValueType::integer:
+        case ValueType::integer2:
+        case ValueType::integer3:
+            return Number::int64;
+        case ValueType::double1:
+        case ValueType::double2:
+        case ValueType::double3:
+            return Number::float64;
+        case ValueType::text:
+            return Number::uint32;
+        default:
+            return Number::float32;
     }
 }
 
@@ -90,7 +99,8 @@ py::object valuesOf(const Column& column) {
 py::list columnNames(const PathSet& paths) {
     py::list out;
     for (const Column& column : paths.userColumns())
-        out.append(py::make_tuple(column.scope == Scope::vertex, toText(column.name), name(column.type), column.count, column.dense()));
+        out.append(py::make_tuple(column.scope == Scope::vertex, toText(column.name), name(column.type), column.count,
+                                  column.dense()));
     return out;
 }
 
@@ -98,7 +108,9 @@ py::list columnNames(const PathSet& paths) {
 py::tuple columnArrays(const PathSet& paths, std::size_t index) {
     if (index >= paths.userColumns().size()) throw py::index_error();
     const Column& column = paths.userColumns()[index];
-    const auto orNone = [](bool there, const auto& values) { return there ? view(values, Number::uint32) : py::object(py::none()); };
+    const auto orNone = [](bool there, const auto& values) {
+        return there ? view(values, Number::uint32) : py::object(py::none());
+    };
     return py::make_tuple(valuesOf(column), orNone(!column.dense(), column.owners),
                           orNone(column.type == ValueType::spectrum, column.spectrumOffsets),
                           orNone(!column.locations.empty(), column.locations));

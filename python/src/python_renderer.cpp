@@ -34,7 +34,8 @@ Result<T> guarded(const char* what, const Call& call) {
     } catch (const Failure& failure) {
         return failure.error();
     } catch (const py::builtin_exception& exception) {  // of conversions
-        return Error{ErrorCode::rendererFailed, std::string("What the renderer's ") + what + " returned cannot be used: " + exception.what() + "."};
+        return Error{ErrorCode::rendererFailed, std::string("What the renderer's ") + what +
+                                                    " returned cannot be used: " + exception.what() + "."};
     }
 }
 
@@ -87,40 +88,49 @@ Camera PythonRenderer::camera() const {
 }
 
 std::vector<Mesh> PythonRenderer::meshes() const {
-    return thrown(guarded<std::vector<Mesh>>("meshes", [&]() -> std::vector<Mesh> { return toMeshes(adapter_.attr("meshes")()); }));
+    return thrown(guarded<std::vector<Mesh>>(
+        "meshes", [&]() -> std::vector<Mesh> { return toMeshes(adapter_.attr("meshes")()); }));
 }
 
 Result<RenderedImage> PythonRenderer::renderImage(const RenderSettings& settings, RequestMonitor& monitor) {
     return guarded<RenderedImage>("render_image", [&]() -> Result<RenderedImage> {
         const CallArguments arguments(monitor, nullptr);
         const py::tuple images = adapter_.attr("render_image")(toTuple(settings), arguments.monitor());
-        return RenderedImage{.color = toImage(images[0]), .samples = imageOrEmpty(images[1]), .variance = imageOrEmpty(images[2])};
+        return RenderedImage{
+            .color = toImage(images[0]), .samples = imageOrEmpty(images[1]), .variance = imageOrEmpty(images[2])};
     });
 }
 
-Result<Color> PythonRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) {
+Result<Color> PythonRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
+                                          RequestMonitor& monitor) {
     return guarded<Color>("render_pixel", [&]() -> Result<Color> {
         const CallArguments arguments(monitor, &recording);
-        const py::object color = adapter_.attr("render_pixel")(pixel.x, pixel.y, toTuple(settings), arguments.recording(), arguments.monitor());
+        const py::object color = adapter_.attr("render_pixel")(pixel.x, pixel.y, toTuple(settings),
+                                                               arguments.recording(), arguments.monitor());
         return toColor(color, "the pixel that render_pixel returned");
     });
 }
 
-Result<std::vector<Color>> PythonRenderer::renderPixels(const std::vector<Pixel>& pixels, const RenderSettings& settings,
-                                                        Recording& recording, RequestMonitor& monitor) {
+Result<std::vector<Color>> PythonRenderer::renderPixels(const std::vector<Pixel>& pixels,
+                                                        const RenderSettings& settings, Recording& recording,
+                                                        RequestMonitor& monitor) {
     bool overridden = false;
-    Result<std::vector<Color>> result = guarded<std::vector<Color>>("render_pixels", [&]() -> Result<std::vector<Color>> {
-        overridden = adapter_.attr("has_render_pixels").cast<bool>();
-        if (!overridden) return std::vector<Color>();
-        const CallArguments arguments(monitor, &recording);
-        py::list asked;
-        for (const Pixel pixel : pixels) asked.append(py::make_tuple(pixel.x, pixel.y));
-        const Numbers colors = toFloats(adapter_.attr("render_pixels")(asked, toTuple(settings), arguments.recording(), arguments.monitor()));
-        if (colors.values.size() != 3 * pixels.size()) throw py::value_error("three numbers are expected for each pixel");
-        std::vector<Color> out(pixels.size());
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = {colors.values[3 * i], colors.values[3 * i + 1], colors.values[3 * i + 2]};
-        return out;
-    });
+    Result<std::vector<Color>> result =
+        guarded<std::vector<Color>>("render_pixels", [&]() -> Result<std::vector<Color>> {
+            overridden = adapter_.attr("has_render_pixels").cast<bool>();
+            if (!overridden) return std::vector<Color>();
+            const CallArguments arguments(monitor, &recording);
+            py::list asked;
+            for (const Pixel pixel : pixels) asked.append(py::make_tuple(pixel.x, pixel.y));
+            const Numbers colors = toFloats(
+                adapter_.attr("render_pixels")(asked, toTuple(settings), arguments.recording(), arguments.monitor()));
+            if (colors.values.size() != 3 * pixels.size())
+                throw py::value_error("three numbers are expected for each pixel");
+            std::vector<Color> out(pixels.size());
+            for (std::size_t i = 0; i < out.size(); ++i)
+                out[i] = {colors.values[3 * i], colors.values[3 * i + 1], colors.values[3 * i + 2]};
+            return out;
+        });
     if (!result.ok() || overridden) return result;
     return Renderer::renderPixels(pixels, settings, recording, monitor);
 }

@@ -42,19 +42,22 @@ py::tuple toTuple(query::PathValues values) {
     if (values.type == query::ExpressionType::text)
         entries = toList(values.texts);
     else
-        entries = moved(std::move(values.numbers), Number::float64, static_cast<std::size_t>(std::max(1, values.components)));
+        entries =
+            moved(std::move(values.numbers), Number::float64, static_cast<std::size_t>(std::max(1, values.components)));
     return py::make_tuple(type, entries, moved(std::move(values.known), Number::boolean));
 }
 
 py::tuple select(const PathSet& paths, const std::string& text) {
     const auto query = parsed<query::Query>(text);
-    query::Matches found = evaluated(text, [&](const auto& limits, auto* where) { return query.select(paths, limits, where); });
+    query::Matches found =
+        evaluated(text, [&](const auto& limits, auto* where) { return query.select(paths, limits, where); });
     return py::make_tuple(moved(std::move(found.paths), Number::uint32), found.unknown, toList(found.missing));
 }
 
 py::tuple evaluate(const PathSet& paths, const std::string& text) {
     const auto query = parsed<query::Query>(text);
-    query::PathValues values = evaluated(text, [&](const auto& limits, auto* where) { return query.evaluate(paths, limits, where); });
+    query::PathValues values =
+        evaluated(text, [&](const auto& limits, auto* where) { return query.evaluate(paths, limits, where); });
     const py::list missing = toList(values.missing);
     return py::make_tuple(toTuple(std::move(values)), missing);
 }
@@ -62,7 +65,8 @@ py::tuple evaluate(const PathSet& paths, const std::string& text) {
 /// (columns as (name, key, type, values, known), number of rows, missing names)
 py::tuple table(const PathSet& paths, const std::string& text) {
     const auto query = parsed<query::Table>(text);
-    query::TableRows rows = evaluated(text, [&](const auto& limits, auto* where) { return query.evaluate(paths, limits, where); });
+    query::TableRows rows =
+        evaluated(text, [&](const auto& limits, auto* where) { return query.evaluate(paths, limits, where); });
     py::list columns;
     for (query::TableColumn& column : rows.columns)
         columns.append(py::make_tuple(toText(column.name), column.key, toTuple(std::move(column.values))));

@@ -26,10 +26,13 @@ Value fromArray(const py::array& array) {
 
 Value fromArray(const py::array& array) {
     const char kind = array.dtype().kind();
-    if (array.ndim() > 1 || array.size() == 0) throw py::value_error("EMCA records numbers, or one-dimensional arrays of at least one number");
+    if (array.ndim() > 1 || array.size() == 0)
+        throw py::value_error("EMCA records numbers, or one-dimensional arrays of at least one number");
     if (kind == 'U' && array.size() == 1) return py::str(array.attr("item")()).cast<std::string>();
     if (kind == 'b' && array.size() == 1) return array.attr("item")().cast<bool>();
-    if (kind != 'f' && kind != 'i' && kind != 'u') throw py::type_error("EMCA cannot record values of the numpy type " + py::str(array.dtype()).cast<std::string>());
+    if (kind != 'f' && kind != 'i' && kind != 'u')
+        throw py::type_error("EMCA cannot record values of the numpy type " +
+                             py::str(array.dtype()).cast<std::string>());
     if (array.size() > 3) {
         const py::array_t<float, kPlain> typed(array);
         return std::vector<float>(typed.data(), typed.data() + typed.size());
@@ -52,7 +55,9 @@ bool floats(PyObject* value, double (&out)[3], py::ssize_t& size) {
 }
 
 /// emca.Color and emca.ColorA: never let go, as the recorder may run until the interpreter ends.
-py::handle colorClass(const char* name) { return py::module_::import("emca.scene").attr(name).cast<py::object>().release(); }
+py::handle colorClass(const char* name) {
+    return py::module_::import("emca.scene").attr(name).cast<py::object>().release();
+}
 
 bool isColor(py::handle value) {
     static const py::handle color = colorClass("Color");
@@ -88,7 +93,8 @@ Value toValue(py::handle value) {
     if (isColor(value)) return toColor(value, "a colour");
     if (isColorA(value)) {
         const auto rgba = toDoubles(value);
-        return ColorA{static_cast<float>(rgba[0]), static_cast<float>(rgba[1]), static_cast<float>(rgba[2]), static_cast<float>(rgba[3])};
+        return ColorA{static_cast<float>(rgba[0]), static_cast<float>(rgba[1]), static_cast<float>(rgba[2]),
+                      static_cast<float>(rgba[3])};
     }
     const py::array array = py::array::ensure(value);
     if (!array) throw py::type_error("EMCA cannot record " + py::repr(value).cast<std::string>());

@@ -34,10 +34,13 @@ auto unlocked(const PyMonitor& monitor, const Do& act) {
 
 void preview(const PyMonitor& monitor, std::uint32_t x, std::uint32_t y, py::handle colors) {
     const Numbers numbers = toFloats(colors);
-    if (numbers.shape.size() != 3 || numbers.shape[2] != 3) throw py::value_error("a preview has the shape (height, width, 3)");
+    if (numbers.shape.size() != 3 || numbers.shape[2] != 3)
+        throw py::value_error("a preview has the shape (height, width, 3)");
     std::vector<Color> pixels(numbers.values.size() / 3);
-    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = {numbers.values[3 * i], numbers.values[3 * i + 1], numbers.values[3 * i + 2]};
-    const PixelRect rect{x, y, x + static_cast<std::uint32_t>(numbers.shape[1]), y + static_cast<std::uint32_t>(numbers.shape[0])};
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = {numbers.values[3 * i], numbers.values[3 * i + 1], numbers.values[3 * i + 2]};
+    const PixelRect rect{x, y, x + static_cast<std::uint32_t>(numbers.shape[1]),
+                         y + static_cast<std::uint32_t>(numbers.shape[0])};
     unlocked(monitor, [&](RequestMonitor& inside) { inside.preview(rect, pixels); });
 }
 
@@ -55,7 +58,8 @@ class PyScope {
     }
     void exit() {
         if (!scope_) return;
-        if (thread_ != std::this_thread::get_id()) throw std::runtime_error("a scope ends in the thread that entered it");
+        if (thread_ != std::this_thread::get_id())
+            throw std::runtime_error("a scope ends in the thread that entered it");
         scope_.reset();
         --call_->openScopes;
     }
@@ -95,36 +99,86 @@ void addValue(const Handle& handle, std::string_view key, py::handle value) {
         toValue(value));
 }
 
-void bindHandles(py::module_& module) {
+/// A call on what a handle names, which returns the handle, so that calls can follow each other.
+template <typename Handle, typename... Arguments, typename Act>
+auto chained(Act act) {
+    return [act](const py::object& self, Arguments... arguments) {
+        act(self.cast<const Handle&>().get(), arguments...);
+        return self;
+    };
+}
+
+void bindVertexHandle(py::module_& module) {
     using namespace py::literals;
+    using V = const VertexHandle&;
+    const auto withPosition = [](auto set) {
+        return chained<PyVertex, py::handle>([set](V v, py::handle p) { set(v, toVec3(p, "a position")); });
+    };
+    const auto withColor = [](auto set) {
+        return chained<PyVertex, py::handle>([set](V v, py::handle c) { set(v, toColor(c, "a colour")); });
+    };
     const float kNone = std::numeric_limits<float>::quiet_NaN();
-    // Every call returns the handle, so that calls can follow each other.
     py::class_<PyVertex>(module, "VertexHandle",
-             "A vertex by name. Calls return it, so that they can follow each other.")
-        .def("position", [](py::object self, py::handle p) { self.cast<const PyVertex&>().get().position(toVec3(p, "a position")); return self; })
-        .def("environment", [](py::object self, py::handle p) { self.cast<const PyVertex&>().get().environment(toVec3(p, "a position")); return self; })
-        .def("next_event", [](py::object self, py::handle p, bool visible) { self.cast<const PyVertex&>().get().nextEvent(toVec3(p, "a position"), visible); return self; }, "position"_a, "visible"_a)
-        .def("surface", [](py::object self, std::int32_t mesh, std::int32_t face) { self.cast<const PyVertex&>().get().surface(mesh, face); return self; }, "mesh"_a, "face"_a)
-        .def("event", [](py::object self, py::handle event, py::handle lobe, std::string_view label) { self.cast<const PyVertex&>().get().event(toEvent(event), toLobe(lobe), label); return self; }, "event"_a, "lobe"_a = "none", "label"_a = "")
-        .def("estimate", [](py::object self, py::handle c) { self.cast<const PyVertex&>().get().estimate(toColor(c, "a colour")); return self; })
-        .def("emission", [](py::object self, py::handle c) { self.cast<const PyVertex&>().get().emission(toColor(c, "a colour")); return self; })
-        .def("contribution", [](py::object self, py::handle c, std::string_view technique, float misWeight, py::handle end) {
-                self.cast<const PyVertex&>().get().contribution(toColor(c, "a contribution"), technique, misWeight, toLightEnd(end));
-                return self;
-            }, "value"_a, "technique"_a, "mis_weight"_a = kNone, "end"_a = "automatic")
-        .def("add", [](py::object self, std::string_view key, py::handle value) { addValue(self.cast<const PyVertex&>().get(), key, value); return self; });
-    py::class_<PyPath>(module, "PathHandle",
-             "A path by name. Calls return it, so that they can follow each other.")
-        .def("origin", [](py::object self, py::handle p) { self.cast<const PyPath&>().get().origin(toVec3(p, "a position")); return self; })
-        .def("final_estimate", [](py::object self, py::handle c) { self.cast<const PyPath&>().get().finalEstimate(toColor(c, "a colour")); return self; })
-        .def("splat", [](py::object self, py::handle pixel, py::handle c) { self.cast<const PyPath&>().get().splat(toPixel(pixel), toColor(c, "a splat")); return self; })
-        .def("add", [](py::object self, std::string_view key, py::handle value) { addValue(self.cast<const PyPath&>().get(), key, value); return self; })
-        .def("vertex", [](const PyPath& path, std::int32_t depth, py::handle subpath) { return PyVertex{path, depth, toSubpath(subpath)}; }, "depth"_a, "subpath"_a = "camera");
+                         "A vertex by name. Calls return it, so that they can follow each other.")
+        .def("position", withPosition([](V v, Vec3f p) { v.position(p); }), "position"_a)
+        .def("environment", withPosition([](V v, Vec3f p) { v.environment(p); }), "position"_a)
+        .def("estimate", withColor([](V v, Color c) { v.estimate(c); }), "estimate"_a)
+        .def("emission", withColor([](V v, Color c) { v.emission(c); }), "emission"_a)
+        .def("next_event", chained<PyVertex, py::handle, bool>([](V v, py::handle p, bool visible) {
+                 v.nextEvent(toVec3(p, "a position"), visible);
+             }),
+             "position"_a, "visible"_a)
+        .def("surface", chained<PyVertex, std::int32_t, std::int32_t>([](V v, std::int32_t mesh, std::int32_t face) {
+                 v.surface(mesh, face);
+             }),
+             "mesh"_a, "face"_a)
+        .def("event",
+             chained<PyVertex, py::handle, py::handle, std::string_view>(
+                 [](V v, py::handle event, py::handle lobe, std::string_view label) {
+                     v.event(toEvent(event), toLobe(lobe), label);
+                 }),
+             "event"_a, "lobe"_a = "none", "label"_a = "")
+        .def("contribution",
+             chained<PyVertex, py::handle, std::string_view, float, py::handle>(
+                 [](V v, py::handle c, std::string_view technique, float misWeight, py::handle end) {
+                     v.contribution(toColor(c, "a contribution"), technique, misWeight, toLightEnd(end));
+                 }),
+             "value"_a, "technique"_a, "mis_weight"_a = kNone, "end"_a = "automatic")
+        .def("add", chained<PyVertex, std::string_view, py::handle>([](V v, std::string_view key, py::handle value) {
+                 addValue(v, key, value);
+             }),
+             "key"_a, "value"_a);
+}
+
+void bindPathHandle(py::module_& module) {
+    using namespace py::literals;
+    using P = const PathHandle&;
+    py::class_<PyPath>(module, "PathHandle", "A path by name. Calls return it, so that they can follow each other.")
+        .def("origin", chained<PyPath, py::handle>([](P path, py::handle p) { path.origin(toVec3(p, "a position")); }),
+             "position"_a)
+        .def("final_estimate",
+             chained<PyPath, py::handle>([](P path, py::handle c) { path.finalEstimate(toColor(c, "a colour")); }),
+             "estimate"_a)
+        .def("splat", chained<PyPath, py::handle, py::handle>([](P path, py::handle pixel, py::handle c) {
+                 path.splat(toPixel(pixel), toColor(c, "a splat"));
+             }),
+             "pixel"_a, "value"_a)
+        .def("add", chained<PyPath, std::string_view, py::handle>([](P path, std::string_view key, py::handle value) {
+                 addValue(path, key, value);
+             }),
+             "key"_a, "value"_a)
+        .def(
+            "vertex",
+            [](const PyPath& path, std::int32_t depth, py::handle subpath) {
+                return PyVertex{path, depth, toSubpath(subpath)};
+            },
+            "depth"_a, "subpath"_a = "camera");
 }
 
 }  // namespace
 
-CallArguments::CallArguments(RequestMonitor& monitor, Recording* recording) : call_(std::make_shared<Call>(Call{&monitor, recording})) {}
+CallArguments::CallArguments(RequestMonitor& monitor, Recording* recording)
+    : call_(std::make_shared<Call>(Call{&monitor, recording})) {}
 
 CallArguments::~CallArguments() {
     Recording* const recording = std::exchange(call_->recording, nullptr);  // nobody begins any more
@@ -140,30 +194,56 @@ py::object CallArguments::recording() const { return py::cast(PyRecording{call_}
 
 void bindRendererArguments(py::module_& module) {
     using namespace py::literals;
-    py::class_<PyMonitor>(module, "RequestMonitor",
-             "How a running call talks to its client. It ends with the call.")
-        .def_property_readonly("cancelled", [](const PyMonitor& m) { return unlocked(m, [](RequestMonitor& i) { return i.cancelled(); }); },
-             "True as soon as the client cancelled or is gone: raise emca.Cancelled().")
-        .def("progress", [](const PyMonitor& m, double fraction) { unlocked(m, [&](RequestMonitor& i) { i.progress(fraction); }); }, "fraction"_a,
-             "Done, in [0, 1]; may be called as often as one likes.")
+    py::class_<PyMonitor>(module, "RequestMonitor", "How a running call talks to its client. It ends with the call.")
+        .def_property_readonly(
+            "cancelled",
+            [](const PyMonitor& m) { return unlocked(m, [](RequestMonitor& i) { return i.cancelled(); }); },
+            "True as soon as the client cancelled or is gone: raise emca.Cancelled().")
+        .def(
+            "progress",
+            [](const PyMonitor& m, double fraction) { unlocked(m, [&](RequestMonitor& i) { i.progress(fraction); }); },
+            "fraction"_a, "Done, in [0, 1]; may be called as often as one likes.")
         .def("preview", &preview, "x"_a, "y"_a, "colors"_a,
              "Finished pixels, an array of shape (height, width, 3), whose top-left pixel is (x, y). Optional.")
-        .def("begin_pixel", [](const PyMonitor& m, py::handle p) { const Pixel pixel = toPixel(p); unlocked(m, [&](RequestMonitor& i) { i.beginPixel(pixel); }); },
-             "Before the replay of a pixel, in a render_pixels of one's own: server tools are told.")
-        .def("end_pixel", [](const PyMonitor& m, py::handle p) { const Pixel pixel = toPixel(p); unlocked(m, [&](RequestMonitor& i) { i.endPixel(pixel); }); },
-             "After the replay of a pixel.");
-    py::class_<PyScope>(module, "RecordScope",
-             "A thread that the renderer started records inside it.")
-        .def("__enter__", [](py::object self) { self.cast<PyScope&>().enter(); return self; })
+        .def(
+            "begin_pixel",
+            [](const PyMonitor& m, py::handle p) {
+                const Pixel pixel = toPixel(p);
+                unlocked(m, [&](RequestMonitor& i) { i.beginPixel(pixel); });
+            },
+            "Before the replay of a pixel, in a render_pixels of one's own: server tools are told.")
+        .def(
+            "end_pixel",
+            [](const PyMonitor& m, py::handle p) {
+                const Pixel pixel = toPixel(p);
+                unlocked(m, [&](RequestMonitor& i) { i.endPixel(pixel); });
+            },
+            "After the replay of a pixel.");
+    py::class_<PyScope>(module, "RecordScope", "A thread that the renderer started records inside it.")
+        .def("__enter__",
+             [](py::object self) {
+                 self.cast<PyScope&>().enter();
+                 return self;
+             })
         .def("__exit__", [](PyScope& scope, const py::args&) { scope.exit(); });
-    bindHandles(module);
+    bindVertexHandle(module);
+    bindPathHandle(module);
     py::class_<PyRecording>(module, "Recording",
-             "Where the paths of one call of render_pixel go. It ends with the call.")
-        .def("scope", [](const PyRecording& r, py::handle pixel) { return std::make_unique<PyScope>(r.call, toPixel(pixel)); }, "pixel"_a,
-             "For threads that the renderer starts: emca.recorder() of a thread listens inside `with recording.scope(pixel):`.")
-        .def("path", [](const PyRecording& r, py::handle pixel, std::int64_t sample, std::int32_t part) { r.get(); return PyPath{r, toPixel(pixel), sample, part}; },
-             "pixel"_a, "sample"_a, "part"_a = 0,
-             "A path by name, for renderers that advance many paths a stage at a time (wavefront).");
+                            "Where the paths of one call of render_pixel go. It ends with the call.")
+        .def(
+            "scope",
+            [](const PyRecording& r, py::handle pixel) { return std::make_unique<PyScope>(r.call, toPixel(pixel)); },
+            "pixel"_a,
+            "For threads that the renderer starts: emca.recorder() of a thread listens inside `with "
+            "recording.scope(pixel):`.")
+        .def(
+            "path",
+            [](const PyRecording& r, py::handle pixel, std::int64_t sample, std::int32_t part) {
+                r.get();
+                return PyPath{r, toPixel(pixel), sample, part};
+            },
+            "pixel"_a, "sample"_a, "part"_a = 0,
+            "A path by name, for renderers that advance many paths a stage at a time (wavefront).");
 }
 
 }  // namespace emca::python

@@ -18,7 +18,7 @@ namespace py = pybind11;
 struct Call {
     RequestMonitor* monitor = nullptr;
     Recording* recording = nullptr;
-    int openScopes = 0;   ///< of threads that record for this call
+    int openScopes = 0;  ///< of threads that record for this call
 };
 
 /// Makes a call's Python arguments and takes their insides away at its end. Threads that still record are waited for,

@@ -15,7 +15,8 @@ constexpr const char* kCameraKinds[] = {"perspective", "spherical", "orthographi
 CameraKind toCameraKind(const std::string& kind) {
     for (std::size_t i = 0; i < std::size(kCameraKinds); ++i)
         if (kind == kCameraKinds[i]) return static_cast<CameraKind>(i);
-    throw py::value_error("a camera's kind is \"perspective\", \"spherical\", \"orthographic\" or \"other\", not \"" + kind + "\"");
+    throw py::value_error("a camera's kind is \"perspective\", \"spherical\", \"orthographic\" or \"other\", not \"" +
+                          kind + "\"");
 }
 
 template <typename Element, typename Source>
@@ -53,8 +54,9 @@ py::list layersOf(const SharedField& surface) {
     py::list out;
     for (const SurfaceLayerData& layer : surface.field->layers) {
         py::dict item = toDict(layer.description);
-        item["values"] = view(layer.values.data(), Number::float32, surface.field->faceCount(), channelCount(layer.description.kind),
-                              channelCount(layer.description.kind) * sizeof(float), layer.values.owner());
+        item["values"] =
+            view(layer.values.data(), Number::float32, surface.field->faceCount(), channelCount(layer.description.kind),
+                 channelCount(layer.description.kind) * sizeof(float), layer.values.owner());
         item["samples"] = layer.samples;
         item["total"] = layer.total;
         out.append(item);
@@ -85,7 +87,8 @@ py::list facesOf(const SharedField& surface) {
 py::tuple refined(const SharedField& surface, std::size_t index, py::handle mesh) {
     if (index >= surface.field->meshes.size()) throw py::index_error();
     RefinedMesh out = unwrap(refine(toMesh(mesh), surface.field->meshes[index].subdivision));
-    return py::make_tuple(moved(std::move(out.positions), Number::float32, 3), moved(std::move(out.triangles), Number::uint32, 3),
+    return py::make_tuple(moved(std::move(out.positions), Number::float32, 3),
+                          moved(std::move(out.triangles), Number::uint32, 3),
                           moved(std::move(out.baseFace), Number::uint32));
 }
 

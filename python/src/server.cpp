@@ -61,7 +61,8 @@ class Serving {
 /// As Python holds it.
 class PythonServer {
   public:
-    PythonServer(const py::object& adapter, ServerOptions options) : serving_(std::make_unique<Serving>(adapter, std::move(options))) {}
+    PythonServer(const py::object& adapter, ServerOptions options)
+        : serving_(std::make_unique<Serving>(adapter, std::move(options))) {}
     ~PythonServer() {
         if (PythonRenderer::insideCall()) {
             // Whoever drops the last reference inside the renderer's own call cannot wait for that call.
@@ -79,9 +80,10 @@ class PythonServer {
 
     void stop() {
         if (PythonRenderer::insideCall()) {
-            throw Failure(Error{ErrorCode::invalidArgument,
-                                "A renderer asked its server to stop inside one of its own calls, and the server waits for "
-                                "those: call stop() from another thread."});
+            throw Failure(
+                Error{ErrorCode::invalidArgument,
+                      "A renderer asked its server to stop inside one of its own calls, and the server waits for "
+                      "those: call stop() from another thread."});
         }
         const Unlocked unlocked;
         serving_->server().stop();
@@ -136,16 +138,21 @@ void bindServer(py::module_& module) {
     using namespace py::literals;
     bindRendererArguments(module);
     py::class_<PythonServer>(module, "Server")
-        .def(py::init([](const py::object& adapter, const py::dict& options) { return std::make_unique<PythonServer>(adapter, serverOptions(options)); }))
+        .def(py::init([](const py::object& adapter, const py::dict& options) {
+            return std::make_unique<PythonServer>(adapter, serverOptions(options));
+        }))
         .def("port", &PythonServer::port)
         .def("address", &PythonServer::address)
         .def("stop", &PythonServer::stop)
         .def("wait", &PythonServer::wait);
     py::class_<SeedMap>(module, "SeedMap",
-             "Gives each (pixel, sample) its seed, by hash at no storage: more samples per pixel extend the paths and change none.")
+                        "Gives each (pixel, sample) its seed, by hash at no storage: more samples per pixel extend the "
+                        "paths and change none.")
         .def(py::init<std::uint64_t>(), "master_seed"_a = 0)
-        .def("seed", [](const SeedMap& map, py::handle pixel, std::uint64_t sample) { return map.seed(toPixel(pixel), sample); }, "pixel"_a, "sample"_a,
-             "64 bits.");
+        .def(
+            "seed",
+            [](const SeedMap& map, py::handle pixel, std::uint64_t sample) { return map.seed(toPixel(pixel), sample); },
+            "pixel"_a, "sample"_a, "64 bits.");
 }
 
 }  // namespace emca::python

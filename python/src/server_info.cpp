@@ -38,7 +38,9 @@ py::dict infoDict(const client::ServerInfo& info) {
 }  // namespace
 
 void bindServerInfo(py::module_& module) {
-    py::class_<client::ServerInfo>(module, "ServerInfo").def("values", [](const client::ServerInfo& info) { return infoDict(info); });
+    py::class_<client::ServerInfo>(module, "ServerInfo").def("values", [](const client::ServerInfo& info) {
+        return infoDict(info);
+    });
 }
 
 }  // namespace emca::python

@@ -19,10 +19,14 @@ py::tuple toTuple(const PathId& path) { return py::make_tuple(path.pixel.x, path
 
 PathId toPathId(py::handle path) {
     const auto parts = py::reinterpret_borrow<py::sequence>(path);
-    return {{parts[0].cast<std::uint32_t>(), parts[1].cast<std::uint32_t>()}, parts[2].cast<std::int64_t>(), parts[3].cast<std::int32_t>()};
+    return {{parts[0].cast<std::uint32_t>(), parts[1].cast<std::uint32_t>()},
+            parts[2].cast<std::int64_t>(),
+            parts[3].cast<std::int32_t>()};
 }
 
-py::object orNone(bool there, const std::function<py::object()>& make) { return there ? make() : py::object(py::none()); }
+py::object orNone(bool there, const std::function<py::object()>& make) {
+    return there ? make() : py::object(py::none());
+}
 
 /// By the names of emca.Session.
 py::dict sessionDict(const Session& session) {
@@ -33,9 +37,11 @@ py::dict sessionDict(const Session& session) {
     out["surface"] = orNone(session.surface != nullptr, [&] { return py::cast(SharedField{session.surface}); });
     py::list images, traces, selected, pixelNotes;
     for (const ImageEntry& image : session.images) images.append(std::make_shared<ImageEntry>(image));
-    for (const auto& trace : session.traces) traces.append(std::const_pointer_cast<Trace>(trace));  // nobody here changes it
+    for (const auto& trace : session.traces)
+        traces.append(std::const_pointer_cast<Trace>(trace));  // nobody here changes it
     for (const PathId& path : session.selection.paths) selected.append(toTuple(path));
-    for (const client::PixelNote& note : session.pixelNotes) pixelNotes.append(py::make_tuple(note.pixel.x, note.pixel.y, toText(note.text)));
+    for (const client::PixelNote& note : session.pixelNotes)
+        pixelNotes.append(py::make_tuple(note.pixel.x, note.pixel.y, toText(note.text)));
     out["images"] = images;
     out["current_image"] = session.currentImage;
     out["traces"] = traces;
@@ -50,16 +56,20 @@ py::dict sessionDict(const Session& session) {
 
 /// \return (session, whole, notices, software, saved)
 py::tuple open(const std::string& file) {
-    const client::OpenedSession opened = await([&](const RequestObserver& observer) { return client::openSession(file, {}, observer); });
-    return py::make_tuple(sessionDict(opened.session), opened.whole, toList(opened.notices), toText(opened.software), opened.saved);
+    const client::OpenedSession opened =
+        await([&](const RequestObserver& observer) { return client::openSession(file, {}, observer); });
+    return py::make_tuple(sessionDict(opened.session), opened.whole, toList(opened.notices), toText(opened.software),
+                          opened.saved);
 }
 
 Session toSession(const py::dict& given) {
     Session session;
     if (const py::object info = given["info"]; !info.is_none()) session.info = info.cast<client::ServerInfo>();
     if (const py::object camera = given["camera"]; !camera.is_none()) session.camera = toCamera(camera);
-    if (const py::object meshes = given["meshes"]; !meshes.is_none()) session.meshes = std::make_shared<const std::vector<Mesh>>(toMeshes(meshes));
-    if (const py::object surface = given["surface"]; !surface.is_none()) session.surface = surface.cast<SharedField&>().field;
+    if (const py::object meshes = given["meshes"]; !meshes.is_none())
+        session.meshes = std::make_shared<const std::vector<Mesh>>(toMeshes(meshes));
+    if (const py::object surface = given["surface"]; !surface.is_none())
+        session.surface = surface.cast<SharedField&>().field;
     for (const py::handle image : given["images"]) session.images.push_back(image.cast<const ImageEntry&>());
     session.currentImage = given["current_image"].cast<std::size_t>();
     for (const py::handle trace : given["traces"]) session.traces.push_back(trace.cast<std::shared_ptr<Trace>>());
@@ -68,7 +78,8 @@ Session toSession(const py::dict& given) {
     session.notes = given["notes"].cast<std::string>();
     for (const py::handle item : given["pixel_notes"]) {
         const auto note = py::reinterpret_borrow<py::tuple>(item);
-        session.pixelNotes.push_back({{note[0].cast<std::uint32_t>(), note[1].cast<std::uint32_t>()}, note[2].cast<std::string>()});
+        session.pixelNotes.push_back(
+            {{note[0].cast<std::uint32_t>(), note[1].cast<std::uint32_t>()}, note[2].cast<std::string>()});
     }
     return session;
 }

@@ -13,7 +13,8 @@ using SharedTrace = std::shared_ptr<Trace>;
 py::list replaysOf(const Trace& trace) {
     py::list out;
     for (const Replay& replay : trace.replays)
-        out.append(py::make_tuple(name(replay.verdict), name(replay.sums), toTuple(replay.rendered), toTuple(replay.replayed)));
+        out.append(py::make_tuple(name(replay.verdict), name(replay.sums), toTuple(replay.rendered),
+                                  toTuple(replay.replayed)));
     return out;
 }
 
@@ -61,9 +62,10 @@ void bindTrace(py::module_& module) {
         .def("stats", &statsOf)
         .def("replays", &replaysOf)
         .def("matches", &matchesOf)
-        .def("pixels", [](const SharedTrace& trace) {
-            return view(trace->pixels.data(), Number::uint32, trace->pixels.size(), 2, sizeof(Pixel), trace);
-        })
+        .def("pixels",
+             [](const SharedTrace& trace) {
+                 return view(trace->pixels.data(), Number::uint32, trace->pixels.size(), 2, sizeof(Pixel), trace);
+             })
         .def("paths", [](const SharedTrace& trace) { return std::shared_ptr<PathSet>(trace, &trace->paths); });
 }
 

@@ -8,7 +8,7 @@ namespace emca::python {
 namespace {
 
 std::atomic<bool> exiting{false};
-std::atomic<int> returning{0};   ///< threads that take the lock back right now
+std::atomic<int> returning{0};  ///< threads that take the lock back right now
 thread_local bool endsInterpreter = false;
 
 [[noreturn]] void waitForTheEnd() {

@@ -4,9 +4,9 @@
 
 namespace emca::python {
 
-/// While it lives, the calling thread does without the interpreter's lock: as pybind11's gil_scoped_release, but a thread
-/// that wants the lock back when the interpreter exits waits for the end of the process. (The interpreter would end such
-/// a thread in the middle of C++, which ends the process with it.)
+/// While it lives, the calling thread does without the interpreter's lock: as pybind11's gil_scoped_release, but a
+/// thread that wants the lock back when the interpreter exits waits for the end of the process. (The interpreter would
+/// end such a thread in the middle of C++, which ends the process with it.)
 class Unlocked {
   public:
     Unlocked() : state_(PyEval_SaveThread()) {}

@@ -22,7 +22,8 @@ using Work = std::function<void(const client::RequestObserver&)>;
 /// \param progress  called with the fraction done in [0, 1], or None
 void runInterruptibly(const Work& work, const py::object& progress = py::none());
 
-/// The same for work that nothing can cancel: on Ctrl-C it is left alone and ends by itself, so it must own what it uses.
+/// The same for work that nothing can cancel: on Ctrl-C it is left alone and ends by itself, so it must own what it
+/// uses.
 void runOrAbandon(std::function<void()> work);
 
 /// \param call  (const client::RequestObserver&) -> Result<T>
