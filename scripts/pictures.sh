@@ -7,7 +7,7 @@ scripts/demo.sh --off-screen --theme light
 mkdir -p docs/pictures
 cp demo-output/01-window.png docs/pictures/window-light.png
 scripts/demo.sh --off-screen --theme dark
-for picture in demo-output/0[1-9]-*.png; do
+for picture in demo-output/[0-9][0-9]-*.png; do
   name=$(basename "$picture")
-  cp "$picture" "docs/pictures/${name#0[1-9]-}"
+  cp "$picture" "docs/pictures/${name#[0-9][0-9]-}"
 done

@@ -8,6 +8,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QStandardItemModel>
+#include <QStyledItemDelegate>
 #include <algorithm>
 #include <utility>
 
@@ -40,6 +41,8 @@ CompletingField::CompletingField(QWidget* parent)
     completer_->setMaxVisibleItems(14);
     setCompleter(completer_);
     completer_->popup()->setObjectName(QStringLiteral("completions"));
+    // Its own delegate ignores the style sheet.
+    completer_->popup()->setItemDelegate(new QStyledItemDelegate(completer_));
     arrow_->setToolTip(tr("Show all"));
     arrow_->setVisible(false);
     connect(arrow_, &QAction::triggered, this, &CompletingField::showAll);

@@ -212,8 +212,8 @@ QString OutlierPanel::summaryText() const {
     if (dataset_.paths().empty()) return {};
     QString text = tr("%1 of %2 paths.").arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()));
     const bool test = options_.method == OutlierMethod::generalizedEsd;
-    if (test) text += ' ' + testText();
-    text += tr(" %1: mean %2, σ %3").arg(test ? tr("The others") : tr("All"), number(report_.mean), number(report_.deviation));
+    if (test) text += '\n' + testText();
+    text += tr("\n%1: mean %2, σ %3").arg(test ? tr("The others") : tr("All"), number(report_.mean), number(report_.deviation));
     // Without limits there is nothing to be beyond.
     if (report_.considered >= 2 && report_.deviation > 0) {
         if (test) text += tr("; from %1 to %2").arg(number(report_.lower), number(report_.upper));

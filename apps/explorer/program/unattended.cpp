@@ -13,6 +13,7 @@
 #include "image/image_canvas.h"
 #include "image/image_view.h"
 #include "base/path_ids.h"
+#include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
 #include "paths/vertex_table.h"
@@ -230,6 +231,11 @@ void Unattended::tour() {
     show("paths", views.paths, "paths", tr("The path as a tree of values"));
     show("vertex", views.vertex, "intersection", tr("Everything that was recorded at the vertex"));
     show("outliers", views.outliers, "outliers", tr("Paths beyond mean + 3 σ"));
+    then([this] {
+        window_.views().filter->addRule({"luminance", {}, query::RuleOperator::greater, "20 * mean(luminance)"});
+        window_.views().filter->addRule({"v.lobe", query::Quantifier::any, query::RuleOperator::equal, "glossy"});
+    });
+    show("filter", views.filter, "filter", tr("Rules and the query that they stand for"));
     show("history", views.history, "history", tr("The pixels that were traced"));
     then([this, pixel, suspect = *suspect] {
         std::vector<std::pair<QString, QString>> pictures;

@@ -15,6 +15,8 @@
 #include "emca/imageio/imageio.h"
 #include "image/image_canvas.h"
 #include "image/image_view.h"
+#include "paths/filter_panel.h"
+#include "paths/query_field.h"
 #include "program/unattended.h"
 #include "testing/program.h"
 #include "window/connect_panel.h"
@@ -73,6 +75,37 @@ TEST_F(MainWindowTest, KeysStepThroughPathsAndVertices) {
     EXPECT_TRUE(program.selection.state().paths.empty());
     QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
     EXPECT_EQ(program.selection.state().currentPath->sample, 3);
+}
+
+TEST_F(MainWindowTest, AFilterSelectsInEveryView) {
+    Program program(settingsFile());
+    connectTo(program);
+    MainWindow& window = *program.window;
+    ImageCanvas& canvas = window.views().image->canvas();
+    const auto click = [&](Pixel pixel) {
+        QTest::mouseClick(&canvas, Qt::LeftButton, {}, canvas.transform().rectOf(pixel).center().toPoint());
+        ASSERT_TRUE(waitFor([&] { return !program.dataset.paths().empty() && program.dataset.paths().pixel(0) == pixel && window.isSettled(); }));
+    };
+    click({7, 5});
+    window.showDock("filter");
+    FilterPanel& filter = *window.views().filter;
+    filter.field().setFocus();
+    // Letters that are keys of the window (R, F, L, [ and .) are text here.
+    QTest::keyClicks(&filter.field(), "luminance == max(luminance) and all(v.position.x > -1e9) and depth in (1, 2, 3)");
+    EXPECT_EQ(filter.countText(), "1 of 4 paths") << filter.noteText().toStdString();
+    EXPECT_TRUE(program.selection.state().paths.empty());
+    EXPECT_FALSE(window.action("rectangle")->isChecked());
+    QTest::keyClick(&filter.field(), Qt::Key_Return);
+    // Sample 2 of every pixel is the strong one.
+    EXPECT_EQ(program.selection.state().paths, (std::vector<client::PathId>{{{7, 5}, 2, 0}}));
+    filter.setAutomatic(true);
+    click({3, 4});
+    EXPECT_EQ(program.selection.state().paths, (std::vector<client::PathId>{{{3, 4}, 2, 0}}));
+    canvas.setFocus();
+    QTest::keyClick(&window, Qt::Key_Escape);
+    EXPECT_TRUE(program.selection.state().paths.empty());
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_EQ(program.selection.state().paths.size(), 1u);
 }
 
 TEST_F(MainWindowTest, ADroppedImageIsOpened) {
