@@ -79,7 +79,9 @@ void SessionController::showSession(client::Session session) {
         const QScopedValueRollback<bool> quiet(showing_, true);
         client::show(session, dataset_, selection_);
     }
-    if (stays && !session.meshes) loadScene();
+    if (!stays) return;
+    if (!session.meshes) loadScene();
+    if (session.shown.empty()) ensureTraced(true);
 }
 
 void SessionController::saveSession(const QString& file) {

@@ -134,7 +134,7 @@ void NoticeCard::paintEvent(QPaintEvent*) {
     const ThemeColors& c = theme_.colors();
     QPainterPath card;
     card.addRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 6, 6);
-    painter.fillPath(card, c.raised);
+    painter.fillPath(card, c.panel);   // its buttons are raised
     painter.save();
     painter.setClipPath(card);
     painter.fillRect(QRect(0, 0, 4, height()), tone_ == Tone::warning ? c.warning : c.accent);
