@@ -218,7 +218,7 @@ int runOutliers(const OutliersArguments& arguments) {
     const Result<OutlierOptions> options = parseOptions(arguments);
     if (!options) return failUsage(options.error().message);
     OnePixel traced;
-    if (const int code = traceOnePixel(arguments.pixel, {"estimate", "position", "event"}, traced); code != Exit::ok)
+    if (const int code = traceOnePixel(arguments.pixel, {{"estimate", "position", "event"}}, traced); code != Exit::ok)
         return code;
     const PathSet& paths = traced.trace.paths;
     const Result<OutlierReport> report = analysis::detectOutliers(paths, *options);
@@ -235,9 +235,7 @@ int runOutliers(const OutliersArguments& arguments) {
 void addOutliersCommand(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<OutliersArguments>();
     CLI::App* command = app.add_subcommand("outliers", "The paths of a pixel that stand out from the others");
-    addAddressOption(*command, arguments->pixel.address);
-    command->add_option("x", arguments->pixel.x, "column, from 0 at the left")->required()->type_name("X");
-    command->add_option("y", arguments->pixel.y, "row, from 0 at the top")->required()->type_name("Y");
+    addPixelArguments(*command, arguments->pixel);
     command
         ->add_option("--method", arguments->method,
                      "sigma: beyond mean ± M standard deviations (default); esd: generalized ESD test")

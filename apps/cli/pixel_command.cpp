@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "emca/imageio/imageio.h"
+#include "one_pixel.h"
 #include "path_json.h"
 #include "path_table.h"
 #include "settings_options.h"
@@ -14,59 +14,23 @@ namespace emca::cli {
 namespace {
 
 struct PixelArguments {
-    std::string address, x, y, against, where, limit = "32";
-    SettingsArguments settings;
+    OnePixelArguments pixel;
+    std::string limit = "32";
     bool json = false;
 };
 
-/// Colour of the pixel in an image that the person has, which must be of the renderer's size.
-Result<Color> colorIn(const std::string& file, const client::ServerInfo& info, Pixel pixel) {
-    const Result<Image> image = imageio::read(file);
-    if (!image) return image.error();
-    if (image->width() != info.width || image->height() != info.height)
-        return Error{ErrorCode::invalidArgument,
-                     fmt::format("{} has {} x {} pixels, but the renderer's image {} x {}; compare with an image of "
-                                 "the same scene and size.",
-                                 file, image->width(), image->height(), info.width, info.height)};
-    return image->color(pixel);
-}
-
 int runPixel(const PixelArguments& arguments) {
-    const Result<Pixel> pixel = parsePixel(arguments.x, arguments.y);
-    if (!pixel) return failUsage(pixel.error().message);
-    const Result<Settings> settings = parseSettings(arguments.settings);
-    if (!settings) return failUsage(settings.error().message);
     const Result<std::uint64_t> limit = parseWhole("--limit", arguments.limit, 0, 1u << 30);
     if (!limit) return failUsage(limit.error().message);
-
-    if (!arguments.where.empty() && !parseQuery(arguments.where)) return Exit::usage;
-
-    const auto connection = connect(arguments.address);
-    if (!connection) return fail(connection.error());
-    const Result<client::ServerInfo> info = (*connection)->info();
-    if (!info) return fail(info.error());
-    if (const Result<void> inside = checkInside(*pixel, *info); !inside) return fail(inside.error());
-
-    client::TraceOptions options;
-    apply(*settings, options);
-    options.query = arguments.where;
-    if (!arguments.against.empty()) {
-        const Result<Color> color = colorIn(arguments.against, *info, *pixel);
-        if (!color) return fail(color.error());
-        options.against = client::VerdictAgainst::givenColors;
-        options.colors = {*color};
+    OnePixel traced;
+    if (const int code = traceOnePixel(arguments.pixel, {}, traced); code != Exit::ok) return code;
+    if (!arguments.json) {
+        fmt::print("{}", pixelReport(traced.trace, traced.scene(), *limit));
+        return Exit::ok;
     }
-    const InterruptGuard interrupt;
-    const Result<client::Trace> trace = traceWithProgress(**connection, "tracing", {{*pixel}, {}}, options, interrupt);
-    if (interrupt.interrupted()) {
-        fmt::print(stderr, "interrupted: the trace was cancelled\n");
-        return Exit::interrupted;
-    }
-    if (!trace) return fail(trace.error());
-    Json json = pixelJson(*trace);
-    if (trace->matches) json["where"] = matchesJson(arguments.where, *trace->matches);
-    fmt::print("{}", arguments.json ? dump(json) : pixelReport(*trace, info->scene, *limit));
-    if (trace->matches) warnAboutMatches(*trace->matches, options.keep);
+    Json json = pixelJson(traced.trace);
+    if (traced.trace.matches) json["where"] = matchesJson(arguments.pixel.where, *traced.trace.matches);
+    fmt::print("{}", dump(json));
     return Exit::ok;
 }
 
@@ -74,14 +38,12 @@ int runPixel(const PixelArguments& arguments) {
 
 void addPixelCommand(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<PixelArguments>();
-    CLI::App* command = app.add_subcommand("pixel", "Replays one pixel and shows every light path that made it");
-    addAddressOption(*command, arguments->address);
-    command->add_option("x", arguments->x, "column, from 0 at the left")->required()->type_name("X");
-    command->add_option("y", arguments->y, "row, from 0 at the top")->required()->type_name("Y");
-    addSettingsOptions(*command, arguments->settings);
-    command->add_option("--against", arguments->against, "compare with this image instead of the renderer's latest")
+    CLI::App* command = app.add_subcommand("pixel", "Replays one pixel, or takes it from a session, and shows every light path that made it");
+    addPixelArguments(*command, arguments->pixel);
+    addSettingsOptions(*command, arguments->pixel.settings);
+    command->add_option("--against", arguments->pixel.against, "compare with this image instead of the renderer's latest")
         ->type_name("IMAGE");
-    command->add_option("--where", arguments->where, "only paths for which a condition is true (docs/queries.md)")
+    command->add_option("--where", arguments->pixel.where, "only paths for which a condition is true (docs/queries.md)")
         ->type_name("QUERY");
     command->add_option("--limit", arguments->limit, "show at most so many paths, the brightest (default 32, 0: all)")
         ->type_name("N");
@@ -89,7 +51,8 @@ void addPixelCommand(CLI::App& app, Run& run) {
     command->footer(
         "Examples:\n  emca pixel localhost:50013 117 64\n"
         "  emca pixel localhost:50013 117 64 --json | jq '.paths | max_by(.estimate[0])'\n"
-        "  emca pixel localhost:50013 117 64 --where 'any(v.lobe == \"specular\") and luminance > 10'");
+        "  emca pixel localhost:50013 117 64 --where 'any(v.lobe == \"specular\") and luminance > 10'\n"
+        "  emca pixel hunt.emca 117 64");
     command->callback([arguments, &run] { run = [arguments] { return runPixel(*arguments); }; });
 }
 

@@ -87,6 +87,22 @@ TEST_F(Scans, SavedSessionHoldsTheMatchesWhole) {
     EXPECT_TRUE(opened->session.meshes != nullptr);
 }
 
+TEST_F(Scans, ASavedPixelAnswersAsTheRendererDid) {
+    const auto brightest = above(0.f)[0].second;
+    const std::string x = std::to_string(brightest.x), y = std::to_string(brightest.y);
+    ASSERT_EQ(run({"scan", address(), "--where", "luminance >= 0", "--spp", "8", "--save", "all.emca"}).exitCode, Exit::ok);
+    Json live = json({"pixel", address(), x, y, "--spp", "8", "--json"}), saved = json({"pixel", "all.emca", x, y, "--json"});
+    for (const char* member : {"pixel", "spp", "seed", "integrator", "paths"}) EXPECT_EQ(saved[member], live[member]) << member;
+    EXPECT_EQ(saved["replay"]["replayed"], live["replay"]["replayed"]);
+    const Json some = json({"pixel", "all.emca", x, y, "--where", "luminance > 0.5", "--json"});
+    EXPECT_EQ(some["paths"], json({"pixel", address(), x, y, "--spp", "8", "--where", "luminance > 0.5", "--json"})["paths"]);
+    EXPECT_EQ(some["where"]["paths"], 8);
+    EXPECT_EQ(json({"stats", "all.emca", x, y, "--json"})["summary"], json({"stats", address(), x, y, "--spp", "8", "--json"})["summary"]);
+    EXPECT_EQ(json({"outliers", "all.emca", x, y, "--json"})["outliers"], json({"outliers", address(), x, y, "--spp", "8", "--json"})["outliers"]);
+    expectError({"pixel", "all.emca", "999", "0"}, Exit::input, "was not traced");
+    expectError({"pixel", "all.emca", x, y, "--spp", "8"}, Exit::usage, "session");
+}
+
 TEST_F(Scans, APixelCanBeAskedTheSame) {
     const Json pixel = json({"pixel", address(), "3", "4", "--spp", "64", "--where", "luminance > 0.5", "--json"});
     EXPECT_EQ(pixel["where"]["paths"], 64);

@@ -142,7 +142,7 @@ Result<query::TableRows> rowsOf(const char* text, const char* key, const PathSet
 
 int runSummary(const StatsArguments& arguments) {
     OnePixel traced;
-    if (const int code = traceOnePixel(arguments.pixel, {"estimate", "position", "contribution"}, traced);
+    if (const int code = traceOnePixel(arguments.pixel, {{"estimate", "position", "contribution"}}, traced);
         code != Exit::ok)
         return code;
     const PathSet& paths = traced.trace.paths;
@@ -180,7 +180,7 @@ int runTable(const StatsArguments& arguments) {
         return Exit::usage;
     }
     OnePixel traced;
-    if (const int code = traceOnePixel(arguments.pixel, table->columns(), traced); code != Exit::ok) return code;
+    if (const int code = traceOnePixel(arguments.pixel, {table->columns()}, traced); code != Exit::ok) return code;
     const Result<query::TableRows> rows = table->evaluate(traced.trace.paths);
     if (!rows) return fail(rows.error());
     for (const std::string& name : rows->missing)
@@ -206,7 +206,7 @@ int runStats(const StatsArguments& arguments) {
             if (!option->empty())
                 return failUsage(
                     "An image has no paths: --table, --where and the renderer's settings need HOST:PORT X Y.");
-        return printImageStats(pixel.address, arguments.json  ? StatsFormat::json
+        return printImageStats(pixel.source, arguments.json  ? StatsFormat::json
                                               : arguments.csv ? StatsFormat::csv
                                                               : StatsFormat::text);
     }
@@ -218,9 +218,9 @@ int runStats(const StatsArguments& arguments) {
 void addStatsCommand(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<StatsArguments>();
     CLI::App* command = app.add_subcommand("stats", "Numbers about the paths of a pixel, or about an image");
-    command->add_option("source", arguments->pixel.address, "where the renderer listens, with X and Y; or an image")
+    command->add_option("source", arguments->pixel.source, "a session or where the renderer listens, with X and Y; or an image")
         ->required()
-        ->type_name("HOST:PORT|IMAGE");
+        ->type_name("FILE|HOST:PORT|IMAGE");
     CLI::Option* x = command->add_option("x", arguments->pixel.x, "column, from 0 at the left")->type_name("X");
     CLI::Option* y = command->add_option("y", arguments->pixel.y, "row, from 0 at the top")->type_name("Y");
     x->needs(y);
