@@ -320,11 +320,13 @@ void SceneView::Impl::updateState() {
         states->clear();
     } else if (!loadError.isEmpty()) {
         states->showError(loadError, "Try again", [this] { emit view.reloadRequested(); });
-    } else if (dataset.info() || loadingFraction) {
-        states->showBusy("Loading the scene…", loadingFraction.value_or(-1));
+    } else if (loadingFraction) {
+        states->showBusy("Loading the scene…", *loadingFraction);
     } else {
-        states->showEmpty("No scene", "Connect to a renderer to see its scene and the paths of a pixel.", "Connect…",
-                          [this] { emit view.connectRequested(); });
+        // Something is here without a scene: a session that has none, or a renderer that was left before it came.
+        states->showEmpty("No scene", dataset.info() ? "It is not here. Connect to the renderer to load it."
+                                                     : "Connect to a renderer to see its scene and the paths of a pixel.",
+                          "Connect…", [this] { emit view.connectRequested(); });
     }
 }
 

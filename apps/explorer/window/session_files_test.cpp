@@ -11,11 +11,13 @@
 #include <QPushButton>
 #include <QUrl>
 
+#include "base/state_overlay.h"
 #include "emca/client/session.h"
 #include "emca/imageio/imageio.h"
 #include "image/image_canvas.h"
 #include "image/image_view.h"
 #include "program/unattended.h"
+#include "scene/scene_view.h"
 #include "session_for_tests.h"
 #include "testing/program.h"
 #include "window/file_menu.h"
@@ -154,6 +156,10 @@ TEST_F(SessionFilesTest, ACutFileOpensInPartSaysSoAndIsNotWrittenOver) {
     EXPECT_GT(card(program).count('\n'), 1);
     EXPECT_TRUE(program.dataset.currentImage());
     EXPECT_TRUE(program.window->windowTitle().contains("in part"));
+    const auto overlays = program.window->views().scene->findChildren<StateOverlay*>();
+    EXPECT_TRUE(std::any_of(overlays.begin(), overlays.end(), [](const StateOverlay* overlay) {
+        return overlay->isVisible() && overlay->sentence().contains("Connect to the renderer");
+    })) << "no scene is on its way";
     pressSave(program);   // asks for a name
     QFileDialog* dialog = nullptr;
     ASSERT_TRUE(waitFor([&] { return (dialog = program.window->findChild<QFileDialog*>()) != nullptr; }));
