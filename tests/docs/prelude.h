@@ -22,13 +22,14 @@ inline emca::Pixel pixel;
 inline emca::Color T, f, Le, L;
 inline float w = 1, pdf = 1;
 inline bool visible = true;
-inline int sample = 0, bounce = 0, maxBounces = 8;
+inline int sample = 0, bounce = 0, maxBounces = 8, samplesSoFar = 0, samplesPerPixel = 1;
 inline std::uint64_t masterSeed = 0;
 inline void fail(const std::string&) {}
 namespace client = emca::client;
 inline client::Dataset dataset;
 inline client::Selection selection;
 inline void say(const std::string&) {}
+inline emca::SurfaceRecorder surface(std::vector<emca::SurfaceMeshView>{});
 
 class MyRenderer : public emca::Renderer {
   public:
