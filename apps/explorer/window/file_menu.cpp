@@ -118,17 +118,18 @@ void FileMenu::open(const QStringList& files) {
         if (!isSession(file)) images << file;
         else if (session.isEmpty()) session = file;
     }
-    const auto openImages = [this, images] {
-        for (const QString& image : images) {
-            opening_ = image;
-            session_.openImage(image);
-        }
-    };
-    if (session.isEmpty()) return openImages();
-    withoutLoss(tr("Save before opening %1?").arg(QFileInfo(session).fileName()), tr("Open without saving"), [this, session, openImages] {
+    if (session.isEmpty()) return openImages(images);
+    withoutLoss(tr("Save before opening %1?").arg(QFileInfo(session).fileName()), tr("Open without saving"), [this, session, images] {
+        imagesAfterSession_ = images;
         openSession(session);
-        openImages();
     });
+}
+
+void FileMenu::openImages(const QStringList& images) {
+    for (const QString& image : images) {
+        opening_ = image;
+        session_.openImage(image);
+    }
 }
 
 void FileMenu::openSession(const QString& file) {
@@ -149,6 +150,7 @@ void FileMenu::opened(const QString& file, bool complete, const QStringList& not
     } else if (!notes.isEmpty()) {
         card_->present(NoticeCard::Tone::remark, tr("Notes in %1").arg(name), notes.split('\n'));
     }
+    openImages(std::exchange(imagesAfterSession_, {}));
 }
 
 void FileMenu::chooseFile(QFileDialog* dialog, std::function<void(const QString&)> chosen) {
@@ -237,6 +239,7 @@ bool FileMenu::showFailure(FailedTask task, const QString& sentence) {
         case FailedTask::openSession:
             if (!QFileInfo::exists(opening_)) document_.forget(opening_);
             toast_.showError(sentence, tr("Open another…"), [this] { openDialog(); });
+            if (task == FailedTask::openSession) openImages(std::exchange(imagesAfterSession_, {}));
             return true;
         case FailedTask::saveSession:
             toast_.showError(sentence, tr("Save elsewhere…"), [this, done = afterSave_] { saveAs(done); });

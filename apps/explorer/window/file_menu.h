@@ -52,6 +52,7 @@ class FileMenu : public QObject {
   private:
     void chooseFile(QFileDialog* dialog, std::function<void(const QString&)> chosen);
     void openSession(const QString& file);
+    void openImages(const QStringList& images);
     void opened(const QString& file, bool complete, const QStringList& notices);
     void saveTo(const QString& file, std::function<void()> done);
     void fillRecent();
@@ -70,6 +71,7 @@ class FileMenu : public QObject {
     QAction* saveSessionAs_ = nullptr;
     QAction* saveImage_ = nullptr;
     QString opening_, saving_;               ///< what a failure is about
+    QStringList imagesAfterSession_;         ///< came with a session, which takes the place of all images when it is open
     std::function<void()> afterSave_;
     bool mayLose_ = false;                   ///< asked and answered: the window closes
 };
