@@ -7,16 +7,9 @@ build=${EMCA_BUILD_DIR:-build/release}
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$build" --target emca-render emca -j "$(nproc)"
 work=$(mktemp -d)
-"$build/bin/emca-render" scenes/firefly/scene.xml --serve 0 >"$work/log" 2>&1 &
-renderer=$!
-trap 'kill "$renderer" 2>/dev/null || true; rm -rf "$work"' EXIT
-for _ in $(seq 300); do
-  address=$(sed -n 's/^listening on //p' "$work/log")
-  [ -n "$address" ] && break
-  kill -0 "$renderer" 2>/dev/null || { cat "$work/log" >&2; exit 5; }
-  sleep 0.1
-done
-[ -n "$address" ] || { echo "html-picture.sh: the renderer did not begin to listen within 30 s" >&2; exit 5; }
+. scripts/serve.sh
+trap 'stop_serving; rm -rf "$serve_log" "$work"' EXIT
+serve firefly
 
 "$build/bin/emca" render "$address" -o "$work/firefly.exr" --spp 256
 "$build/bin/emca" export "$address" 146 97 --spp 256 --html "$work/firefly.html"
