@@ -68,18 +68,6 @@ Json vertexJson(const PathSet& paths, Index vertex) {
     return out;
 }
 
-const char* name(LightEnd end) {
-    switch (end) {
-        case LightEnd::hit:
-            return "hit";
-        case LightEnd::connected:
-            return "connected";
-        case LightEnd::automatic:
-            break;
-    }
-    return "automatic";
-}
-
 void addContributions(const PathSet& paths, Index vertex, Json& out) {
     const IndexRange range = paths.contributions(vertex);
     for (Index i = range.first; i < range.last; ++i) {

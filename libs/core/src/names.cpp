@@ -51,6 +51,12 @@ const char* name(Verdict verdict) {
     return i < std::size(kNames) ? kNames[i] : "unknown";
 }
 
+const char* name(LightEnd end) {
+    constexpr const char* kNames[] = {"automatic", "hit", "connected"};
+    const auto i = static_cast<std::size_t>(end);
+    return i < std::size(kNames) ? kNames[i] : "unknown";
+}
+
 const char* name(SumCheck check) {
     constexpr const char* kNames[] = {"unknown", "matches", "differs"};
     const auto i = static_cast<std::size_t>(check);

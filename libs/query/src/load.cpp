@@ -96,10 +96,6 @@ Values surfaceNumbers(const SharedArray<std::int32_t>& column, const SharedArray
     return values;
 }
 
-const char* endName(LightEnd end) {
-    return end == LightEnd::hit ? "hit" : end == LightEnd::connected ? "connected" : "automatic";
-}
-
 Values depths(const PathSet& paths, IndexRange range) {
     const PathColumns& c = paths.columns();
     Values values = numbersOf(range.size());
@@ -294,7 +290,7 @@ Values Evaluator::coreTexts(const Node& node, Chunk& chunk) {
         if (node.core == Core::event) names[i] = texts.add(name(static_cast<Event>(i)));
         if (node.core == Core::lobe && i < kLobeCount) names[i] = texts.add(name(static_cast<Lobe>(i)));
         if (node.core == Core::subpath && i < 2) names[i] = texts.add(name(static_cast<Subpath>(i)));
-        if (node.core == Core::end && i < kLightEndCount) names[i] = texts.add(endName(static_cast<LightEnd>(i)));
+        if (node.core == Core::end && i < kLightEndCount) names[i] = texts.add(name(static_cast<LightEnd>(i)));
     }
     for (Index i = range.first; i < range.last; ++i) {
         if (ofEvent && (c.vertexFlags[i] & VertexFlag::hasEvent) == 0) continue;

@@ -36,5 +36,6 @@ inline constexpr std::uint8_t kEventCount = 8, kLobeCount = 5, kLightEndCount = 
 const char* name(Event event);
 const char* name(Lobe lobe);
 const char* name(Subpath subpath);
+const char* name(LightEnd end);
 
 }  // namespace emca
