@@ -7,9 +7,6 @@ namespace emca::query::detail {
 /// Compiles the light path expressions of a tree and checks its regular expressions. False: `error` says what is wrong.
 bool prepare(Node& root, QueryError& error);
 
-/// Parses, prepares and checks what can be checked without recorded data.
-bool makeTree(std::string_view text, Node& root, QueryError& error);
-
 /// Bytes that the intermediate results of one chunk may need.
 std::size_t temporaryBytes(const Node& root, const class Chunk& chunk);
 

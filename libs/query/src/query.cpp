@@ -1,10 +1,10 @@
 #include "emca/query/query.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "check.h"
 #include "evaluator.h"
+#include "path_values.h"
 #include "patterns.h"
 #include "prepare.h"
 
@@ -44,12 +44,6 @@ bool prepare(Node& node, int& programs, QueryError& error) {
 bool prepare(Node& root, QueryError& error) {
     int programs = 0;
     return prepare(root, programs, error);
-}
-
-bool makeTree(std::string_view text, Node& root, QueryError& error) {
-    if (!parseExpression(text, root, error) || !prepare(root, error)) return false;
-    Node copy = root;
-    return check(copy, anyTypes(), error);
 }
 
 namespace {
@@ -188,15 +182,16 @@ Result<Query> Query::parse(std::string_view text, QueryError* where) {
     Query query;
     Node root;
     QueryError error;
-    if (!makeTree(text, root, error)) {
+    const auto failed = [&] {
         if (where) *where = error;
         return toError(text, error);
-    }
+    };
+    if (!parseExpression(text, root, error) || !prepare(root, error)) return failed();
+    Node checked = root;  // as far as types are known before there is a set
+    if (!check(checked, anyTypes(), error)) return failed();
     query.text_ = std::string(text);
     query.columns_ = columnsOf(root);
     if (query.columns_.empty()) query.columns_ = {"estimate"};  // an empty list would mean all
-    Node checked = root;
-    (void)check(checked, anyTypes(), error);
     query.wholePixels_ = detail::readsWholePixels(checked);
     query.root_ = std::make_shared<const Node>(std::move(root));
     return query;
@@ -220,21 +215,10 @@ Result<PathValues> Query::evaluate(const PathSet& paths, const EvaluationLimits&
     PathValues out;
     Evaluation evaluation(*root_, paths, limits, wholePixels_);
     const auto use = [&](Evaluator& evaluator, const Values& values, IndexRange range) {
-        for (Index p = range.first; p < range.last; ++p) {
-            const std::size_t i = values.constant ? 0 : p - range.first;
-            const bool known = values.isKnown(i);
-            out.known.push_back(known);
-            if (values.type == Type::boolean) out.numbers.push_back(known && values.truth[i] == kTrue ? 1 : 0);
-            else if (values.type == Type::text) out.texts.emplace_back(known ? evaluator.texts().text(values.texts[i]) : std::string_view());
-            else if (values.type == Type::missing) out.numbers.push_back(0);
-            else if (values.type != Type::spectrum)
-                for (std::size_t c = 0; c < static_cast<std::size_t>(values.components); ++c)
-                    out.numbers.push_back(known ? values.numbers[c][i] : std::numeric_limits<double>::quiet_NaN());
-        }
+        append(values, range.size(), values.type == Type::text ? &evaluator.texts() : nullptr, out);
     };
     if (auto done = evaluation.run(text_, where, false, use, out.missing); !done) return done.error();
-    out.type = evaluation.root().type;
-    out.components = out.type == Type::text ? 0 : out.type == Type::missing ? 1 : evaluation.root().components;
+    setType(evaluation.root().type, evaluation.root().components, out);
     if (out.type == Type::spectrum) return Error{ErrorCode::parseFailed, "The expression gives a spectrum: take an entry of it, such as [0]."};
     return out;
 }

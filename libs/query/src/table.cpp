@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <unordered_map>
 
 #include "check.h"
 #include "evaluator.h"
+#include "path_values.h"
 #include "prepare.h"
 
 namespace emca::query {
@@ -90,20 +90,8 @@ bool before(const RowValues& key, const Texts& texts, Index a, Index b, bool& sa
 
 PathValues toColumn(const Values& values, const Texts& texts, std::size_t size) {
     PathValues out;
-    out.type = values.type;
-    out.components = values.type == Type::text ? 0 : values.type == Type::missing ? 1 : values.components;
-    if (values.type == Type::boolean) out.components = 1;
-    for (std::size_t row = 0; row < size; ++row) {
-        const std::size_t i = values.constant ? 0 : row;
-        const bool known = values.isKnown(row);
-        out.known.push_back(known);
-        if (values.type == Type::text) out.texts.emplace_back(known ? texts.text(values.texts[i]) : std::string_view());
-        else if (values.type == Type::boolean) out.numbers.push_back(known && values.truth[i] == kTrue ? 1 : 0);
-        else if (values.type == Type::missing) out.numbers.push_back(0);
-        else
-            for (std::size_t c = 0; c < static_cast<std::size_t>(values.components); ++c)
-                out.numbers.push_back(known ? values.numbers[c][i] : std::numeric_limits<double>::quiet_NaN());
-    }
+    setType(values.type, values.components, out);
+    append(values, size, &texts, out);
     return out;
 }
 
