@@ -106,21 +106,11 @@ class Scan {
         recorded.budgetBytes = options_.budgetBytes / 2 / threads_;
         recorded.locations = options_.locations;
         recorded.observer = options_.observer;
-        Recording recording(std::move(recorded));
         BatchMonitor monitor(monitor_, failed_);
-        const auto values = [&] {
-            const RecordScope scope(recording);
-            return renderer_.renderPixels(pixels, options_.settings, recording, monitor);
-        }();
-        if (!values) return values.error();
-        if (values->size() != pixels.size()) {
-            return Error{ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values->size()) + " values for " +
-                                                        std::to_string(pixels.size()) + " pixels."};
-        }
-        std::copy(values->begin(), values->end(), result_.values.begin() + static_cast<std::ptrdiff_t>(first));
-        const auto paths = recording.finish();
-        if (!paths) return paths.error();
-        return evaluate(batch, first, pixels, *paths, recording.stats());
+        const auto replayed = replayPixels(renderer_, std::move(recorded), options_.settings, monitor);
+        if (!replayed) return replayed.error();
+        std::copy(replayed->values.begin(), replayed->values.end(), result_.values.begin() + static_cast<std::ptrdiff_t>(first));
+        return evaluate(batch, first, pixels, replayed->paths, replayed->stats);
     }
 
     Result<void> evaluate(std::size_t batch, std::size_t first, const std::vector<Pixel>& pixels, const PathSet& paths,
@@ -190,6 +180,27 @@ class Scan {
 };
 
 }  // namespace
+
+Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor) {
+    Recording recording(std::move(recorded));
+    const std::vector<Pixel>& pixels = recording.options().pixels;
+    auto values = [&] {
+        const RecordScope scope(recording);
+        return renderer.renderPixels(pixels, settings, recording, monitor);
+    }();
+    if (!values) return values.error();
+    if (values->size() != pixels.size()) {
+        return Error{ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values->size()) + " values for " +
+                                                    std::to_string(pixels.size()) + " pixels."};
+    }
+    auto paths = recording.finish();
+    if (!paths) return paths.error();
+    ScanResult result;
+    result.values = std::move(values).value();
+    result.paths = std::move(paths).value();
+    result.stats = recording.stats();
+    return result;
+}
 
 Result<ScanResult> scanPaths(Renderer& renderer, const query::Query& query, const ScanOptions& options, RequestMonitor& monitor) {
     return Scan(renderer, query, options, monitor).run();

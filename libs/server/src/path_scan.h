@@ -33,6 +33,10 @@ struct ScanResult {
     bool complete = true;                    ///< every path's estimate and splats were recorded and kept
 };
 
+/// Replays pixels into one recording. `recorded.pixels` are the pixels, each once, ascending; values, paths and stats of the
+/// result are filled in. Errors: those of the renderer.
+Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor);
+
 /// Replays pixels in batches, evaluates the query on each as soon as it is recorded, and keeps nothing but matches,
 /// counts and sums: memory does not grow with pixels or samples, but for what is kept. What is kept does not depend on
 /// the threads. Errors: those of the renderer and of the query; cancelled.

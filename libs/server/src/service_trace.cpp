@@ -92,24 +92,8 @@ Result<ScanResult> Service::replay(const std::shared_ptr<Request>& request, cons
     recorded.budgetBytes = options.budgetBytes;
     recorded.locations = options.locations;
     recorded.observer = options.observer;
-    Recording recording(std::move(recorded));
     JobMonitor monitor(request, false, tools());
-    auto values = [&] {
-        const RecordScope scope(recording);
-        return renderer_.renderPixels(options.pixels, options.settings, recording, monitor);
-    }();
-    if (!values) return values.error();
-    if (values->size() != options.pixels.size()) {
-        return Error{ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values->size()) + " values for " +
-                                                    std::to_string(options.pixels.size()) + " pixels."};
-    }
-    auto paths = recording.finish();
-    if (!paths) return paths.error();
-    ScanResult result;
-    result.values = std::move(values).value();
-    result.paths = std::move(paths).value();
-    result.stats = recording.stats();
-    return result;
+    return replayPixels(renderer_, std::move(recorded), options.settings, monitor);
 }
 
 /// Replays the pixels batch by batch, and keeps what the query finds.
