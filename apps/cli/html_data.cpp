@@ -1,8 +1,6 @@
 #include "html_data.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "emca/analysis/outliers.h"
 #include "emca/analysis/path_quantities.h"
@@ -20,23 +18,9 @@ using analysis::PathQuantity;
 constexpr double kDeviations = 3;
 constexpr int kTicks = 5;
 
-/// NaN and infinity first, then by luminance; paths without estimate last.
-std::vector<Index> brightestFirst(const PathSet& paths) {
-    std::vector<double> keys(paths.pathCount());
-    std::vector<Index> order(paths.pathCount());
-    for (Index i = 0; i < paths.pathCount(); ++i) {
-        const auto value = analysis::pathValue(paths, i, PathQuantity::luminance);
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
-        keys[i] = !value ? -kInfinity : std::isfinite(*value) ? *value : kInfinity;
-        order[i] = i;
-    }
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return keys[a] > keys[b]; });
-    return order;
-}
-
 /// The brightest paths, in the order of the set; ascending positions.
 std::vector<Index> keptPaths(const PathSet& paths, std::size_t maximum) {
-    std::vector<Index> kept = brightestFirst(paths);
+    std::vector<Index> kept = analysis::brightestFirst(paths);
     if (maximum > 0 && kept.size() > maximum) kept.resize(maximum);
     std::sort(kept.begin(), kept.end());
     return kept;
@@ -153,7 +137,7 @@ Json analysisJson(const PathSet& all, const std::vector<Index>& kept, const Path
     Json out;
     out["paths"] = all.pathCount();
     out["shown"] = paths.pathCount();
-    out["order"] = brightestFirst(paths);
+    out["order"] = analysis::brightestFirst(paths);
     out["outliers"] = outliersJson(all, kept);
     out["luminance"] = quantityJson(paths, PathQuantity::luminance);
     out["red"] = quantityJson(paths, PathQuantity::red);

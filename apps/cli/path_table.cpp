@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "emca/analysis/format.h"
 #include "emca/analysis/outliers.h"
@@ -50,17 +48,6 @@ std::string remarks(const client::Trace& trace) {
         text += fmt::format("warning: {} values came before a path or vertex was begun and were dropped\n",
                             stats.droppedWithoutPath + stats.droppedWithoutVertex);
     return text;
-}
-
-/// NaN and infinity first, then by luminance; paths without estimate last; equal ones in their order.
-std::vector<Index> brightestFirst(const PathSet& paths, std::vector<Index> order) {
-    const auto key = [&](Index path) {
-        const auto value = analysis::pathValue(paths, path, analysis::PathQuantity::luminance);
-        if (!value) return -std::numeric_limits<double>::infinity();
-        return std::isfinite(*value) ? *value : std::numeric_limits<double>::infinity();
-    };
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) > key(b); });
-    return order;
 }
 
 struct Contents {
@@ -156,7 +143,7 @@ std::string pixelReport(const client::Trace& trace, const std::string& scene, st
     for (Index i = 0; i < paths.pathCount(); ++i) order[i] = i;
     const bool cut = limit > 0 && order.size() > limit;
     if (cut) {
-        order = brightestFirst(paths, std::move(order));
+        order = analysis::brightestFirst(paths);
         order.resize(limit);
     }
     text += makeTable(paths, order, outliers).text();

@@ -1,6 +1,7 @@
 #include "emca/analysis/path_quantities.h"
 
 #include <cmath>
+#include <limits>
 
 namespace emca::analysis {
 namespace {
@@ -93,6 +94,19 @@ PathSeries pathSeries(const PathSet& paths, PathQuantity quantity) {
             series.paths.push_back(path);
         }
     return series;
+}
+
+std::vector<Index> brightestFirst(const PathSet& paths) {
+    std::vector<double> keys(paths.pathCount());
+    std::vector<Index> order(paths.pathCount());
+    for (Index i = 0; i < paths.pathCount(); ++i) {
+        const auto value = pathValue(paths, i, PathQuantity::luminance);
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        keys[i] = !value ? -kInfinity : std::isfinite(*value) ? *value : kInfinity;
+        order[i] = i;
+    }
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return keys[a] > keys[b]; });
+    return order;
 }
 
 bool isEmitterVertex(const PathSet& paths, Index vertex, std::span<const Mesh> meshes) {

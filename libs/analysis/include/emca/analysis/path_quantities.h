@@ -34,6 +34,9 @@ struct PathSeries {
 PathSeries pathSeries(const PathSet& paths, PathQuantity quantity);
 std::optional<double> pathValue(const PathSet& paths, Index path, PathQuantity quantity);
 
+/// All paths: NaN and infinity first, then by luminance, those without final estimate last; equal ones in their order.
+std::vector<Index> brightestFirst(const PathSet& paths);
+
 inline constexpr Index kNoIndex = 0xffffffffu;
 
 /// True if light is emitted at a vertex: a recorded emission decides; without one, the event "emission" or "background",
