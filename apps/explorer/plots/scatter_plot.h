@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/theme.h"
+#include "emca/explorer/plot.h"
 #include "plots/points_item.h"
 
 class QwtPlot;
@@ -16,15 +17,6 @@ class MarginalHistogram;
 class MeanLabel;
 class PlotOverlay;
 
-/// What an axis shows.
-struct PlotAxis {
-    QString quantity;          ///< "luminance"
-    QString unit;              ///< "W/(sr m²)" or empty
-    bool integral = false;     ///< whole numbers: no tick between them
-    bool includeZero = false;  ///< its range begins at 0, as radiance does
-    QString title() const { return unit.isEmpty() ? quantity : quantity + QStringLiteral(", ") + unit; }
-};
-
 /// Points over two axes with a histogram of the values beside them. Knows no paths: what the points stand for, its
 /// owner says. Mouse: click and shift-click choose a point, dragging draws a rectangle, the wheel zooms at the cursor
 /// (over an axis, or with Ctrl for x and Shift for y: that axis alone), middle or Alt-left drags move, a double click
@@ -32,7 +24,7 @@ struct PlotAxis {
 class ScatterPlot : public QWidget {
     Q_OBJECT
   public:
-    using ColorRole = QColor ThemeColors::*;
+    using ColorRole = explorer::ColorRole;
 
     explicit ScatterPlot(Theme& theme, QWidget* parent = nullptr);
     ~ScatterPlot() override;
