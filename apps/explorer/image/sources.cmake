@@ -1,0 +1,16 @@
+set(EMCA_IMAGE_SOURCES
+  image/image_canvas.cpp
+  image/image_canvas.h
+  image/image_controls.cpp
+  image/image_controls.h
+  image/image_pixels.cpp
+  image/image_pixels.h
+  image/image_transform.cpp
+  image/image_transform.h
+  image/image_view.cpp
+  image/image_view.h
+)
+set(EMCA_IMAGE_TESTS
+  image/image_transform_test.cpp
+  image/image_view_test.cpp
+)
