@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -51,8 +52,9 @@ float featureDifference(float edge, float point, float referenceEdge, float refe
 }
 
 /// LDR-FLIP of what the screen shows at one exposure; each pixel keeps its largest difference.
-void compare(const Image& image, const Image& reference, const FlipFilters& filters, FlipRange range, double exposure,
-             Image& error) {
+/// \param goOn  asked after each row; false: the result is worth nothing
+bool compare(const Image& image, const Image& reference, const FlipFilters& filters, FlipRange range, double exposure,
+             Image& error, const std::function<bool(std::uint32_t row)>& goOn) {
     PerceivedImage left(filters, image.width(), image.height(), shownRows(image, range, exposure));
     PerceivedImage right(filters, image.width(), image.height(), shownRows(reference, range, exposure));
     for (std::uint32_t y = 0; y < image.height(); ++y) {
@@ -65,7 +67,9 @@ void compare(const Image& image, const Image& reference, const FlipFilters& filt
             const float feature = featureDifference(a.edge[x], a.point[x], b.edge[x], b.point[x]);
             out[x] = std::max(out[x], std::pow(color, 1 - feature));
         }
+        if (!goOn(y)) return false;
     }
+    return true;
 }
 
 Result<void> check(const Image& image, const Image& reference, const FlipOptions& options) {
@@ -132,12 +136,15 @@ Result<FlipResult> flip(const Image& image, const Image& reference, const FlipOp
     result.error = Image(image.width(), image.height(), {"FLIP"});
     if (result.error.empty()) return result;
     const FlipFilters filters(options.pixelsPerDegree);
-    if (options.range == FlipRange::low) {
-        compare(image, reference, filters, FlipRange::low, 0, result.error);
-    } else {
-        result.exposures = options.exposures ? *options.exposures : automaticExposures(reference);
-        for (std::uint32_t i = 0; i < result.exposures.count; ++i)
-            compare(image, reference, filters, FlipRange::high, result.exposures.at(i), result.error);
+    const bool high = options.range == FlipRange::high;
+    if (high) result.exposures = options.exposures ? *options.exposures : automaticExposures(reference);
+    const std::uint32_t passes = high ? result.exposures.count : 1;
+    for (std::uint32_t i = 0; i < passes; ++i) {
+        const auto goOn = [&](std::uint32_t row) {
+            return !options.progress || options.progress((i + (row + 1.0) / image.height()) / passes);
+        };
+        if (!compare(image, reference, filters, options.range, high ? result.exposures.at(i) : 0, result.error, goOn))
+            return Error{ErrorCode::cancelled, "FLIP was cancelled."};
     }
     for (std::uint32_t y = 0; y < image.height(); ++y)
         for (std::uint32_t x = 0; x < image.width(); ++x)

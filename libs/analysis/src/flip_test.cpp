@@ -325,5 +325,27 @@ TEST(Flip, RefusesNonsense) {
     EXPECT_TRUE(flip(Image(), Image()).ok());
 }
 
+TEST(Flip, ProgressGrowsToOneAndCanEndTheWork) {
+    Image image(12, 9), reference(12, 9);
+    reference.setColor({3, 3}, {1, 4, 2});
+    image.setColor({5, 5}, {9, 1, 0});
+    double last = 0;
+    FlipOptions options;
+    options.exposures = FlipExposures{-2, 2, 3};
+    options.progress = [&](double fraction) {
+        EXPECT_GT(fraction, last);
+        last = fraction;
+        return true;
+    };
+    ASSERT_TRUE(flip(image, reference, options));
+    EXPECT_DOUBLE_EQ(last, 1);
+    int calls = 0;
+    options.progress = [&](double) { return ++calls < 10; };
+    const auto ended = flip(image, reference, options);
+    ASSERT_FALSE(ended);
+    EXPECT_EQ(ended.error().code, ErrorCode::cancelled);
+    EXPECT_EQ(calls, 10);
+}
+
 }  // namespace
 }  // namespace emca::analysis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "emca/core/image.h"
@@ -35,6 +36,8 @@ struct FlipOptions {
     FlipRange range = FlipRange::high;
     double pixelsPerDegree = flipPixelsPerDegree(0.7, 0.7, 3840);  ///< about 67: the papers' default; at most 1000
     std::optional<FlipExposures> exposures;  ///< high only; nothing: automaticExposures() of the reference
+    /// Called after each row with the share that is done, in the calling thread; false ends the work.
+    std::function<bool(double fraction)> progress = {};
 };
 
 struct FlipResult {
@@ -53,7 +56,7 @@ FlipExposures automaticExposures(const Image& reference);
 /// arguments; high is not if the exposures come from the reference. Negative values count as 0, infinite ones as white.
 /// A pixel that is NaN in one image only is NaN in the result; for its neighbours NaN counts as black.
 /// 1920x1080 takes some 0.4 s per exposure on one thread, and memory for the result besides a few dozen rows.
-/// Errors: invalidArgument (sizes differ; pixelsPerDegree, exposures out of range).
+/// Errors: invalidArgument (sizes differ; pixelsPerDegree, exposures out of range); cancelled (by progress).
 Result<FlipResult> flip(const Image& image, const Image& reference, const FlipOptions& options = {});
 
 }  // namespace emca::analysis
