@@ -109,8 +109,10 @@ class Assembler {
             std::stable_sort(pieces_.begin(), pieces_.end(), less);
         for (Index begin = 0, end = 0; begin < pieces_.size(); begin = end) {
             bool kept = false;
-            for (end = begin; end < pieces_.size() && id(pieces_[end]) == id(pieces_[begin]); ++end)
-                kept = kept || shared_.keeps(row(pieces_[end]));
+            for (end = begin; end < pieces_.size() && (end == begin || id(pieces_[end]) == id(pieces_[begin])); ++end) {
+                const PathRow& piece = row(pieces_[end]);
+                kept = kept || !piece.byHandle || shared_.keeps(piece);  // the others were asked at their ends
+            }
             if (kept)
                 paths_.push_back({begin, end});
             else
@@ -162,7 +164,7 @@ class Assembler {
         const auto ifAny = [&](std::uint16_t tag) { return coreCount(tag) > 0 ? m : 0; };
         depths_ = memory_.take<std::int32_t>(m);
         vertexFlags_ = memory_.take<std::uint8_t>(m, 0);
-        positions_ = memory_.take<Vec3f>(m, {});
+        positions_ = memory_.take<Vec3f>(ifAny(LogTag::position), {});
         estimates_ = memory_.take<Color>(ifAny(LogTag::estimate), {});
         emissions_ = memory_.take<Color>(ifAny(LogTag::emission), {});
         meshes_ = memory_.take<std::int32_t>(ifAny(LogTag::surface), -1);
@@ -301,8 +303,8 @@ class Assembler {
         out_.firstVertex = firstVertex_.share(n + 1);
         out_.depths = depths_.share(m);
         out_.vertexFlags = vertexFlags_.share(m);
-        out_.positions = positions_.share(m);
         const auto orNone = [&]<typename T>(const ResultArray<T>& array) { return array.share(array.data ? m : 0); };
+        out_.positions = orNone(positions_);
         out_.vertexEstimates = orNone(estimates_);
         out_.emissions = orNone(emissions_);
         out_.meshes = orNone(meshes_);

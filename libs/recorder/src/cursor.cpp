@@ -82,9 +82,17 @@ void Cursor::endPath() {
     row.vertices = static_cast<Index>(c.visited_.size());
     row.ordered = c.ordered_;
     if (c.shared_.options.observer) c.shared_.options.observer->endPath(row.pixel, row.sample);
-    if (!row.byHandle && !c.shared_.keeps(row)) c.forgetPath();
+    if (!row.byHandle && !c.keeps(row)) c.forgetPath();
     c.inPath_ = false;
     c.path_ = CursorImpl::kNone;
+}
+
+/// A pixel's samples come one after the other, so the last pixel that was asked for nearly always decides.
+bool CursorImpl::keeps(const PathRow& path) {
+    if (path.hasPixel && path.pixel == keptPixel_) return true;
+    const bool kept = shared_.keeps(path);
+    if (kept && path.hasPixel && !path.keptBySplat) keptPixel_ = path.pixel;
+    return kept;
 }
 
 /// Takes back everything of the current path, which added nothing to what was asked for.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <source_location>
 #include <string>
 #include <string_view>
@@ -94,6 +95,7 @@ class CursorImpl final : public Cursor {
     void startVertex(std::int32_t depth, Subpath subpath);
     void finishVertex();
     void openVertex(Index vertex);
+    bool keeps(const PathRow& path);
     void forgetPath();
     void dropWithoutPath() { ++(starved_ ? stats_.droppedByBudget : stats_.droppedWithoutPath); }
     void dropWithoutVertex() { ++(starved_ ? stats_.droppedByBudget : stats_.droppedWithoutVertex); }
@@ -113,6 +115,7 @@ class CursorImpl final : public Cursor {
     RecordingStats stats_;
 
     Pixel pixel_;
+    std::optional<Pixel> keptPixel_;  ///< is asked for
     bool hasPixel_ = false;
     bool inPath_ = false;
     bool starved_ = false;  ///< the budget left no room for the current path or vertex itself

@@ -15,7 +15,7 @@ class Interner {
   public:
     /// Index of the text, new or known; kNoString if it is new and the budget has no room for it.
     std::uint32_t add(std::string_view text, Budget& budget) {
-        Recent& recent = recent_[(reinterpret_cast<std::uintptr_t>(text.data()) >> 3) % kRecent];
+        Recent& recent = recent_[placeOf(text.data())];
         // The memory may hold another text by now, so the contents decide.
         if (recent.data == text.data() && recent.size == text.size() && recent.begin == beginOf(text) &&
             (text.size() <= sizeof(Ends) || strings_[recent.index] == text)) [[likely]]
@@ -51,13 +51,17 @@ class Interner {
         Ends begin;
         std::uint32_t index = 0;
     };
-    static constexpr std::size_t kRecent = 16;
+    /// Literals lie close together, so the bits of their addresses are mixed (Fibonacci hashing).
+    static constexpr int kRecentBits = 6;
+    static std::size_t placeOf(const char* text) {
+        return (reinterpret_cast<std::uintptr_t>(text) * 0x9e3779b97f4a7c15ull) >> (64 - kRecentBits);
+    }
 
     std::uint32_t addSlowly(Recent& recent, std::string_view text, Budget& budget);
     std::uint32_t find(std::string_view text, Budget& budget);
     void rehash(std::size_t slots);
 
-    Recent recent_[kRecent];
+    Recent recent_[std::size_t(1) << kRecentBits];
     std::vector<std::string> strings_;
     std::vector<std::uint32_t> slots_;  ///< open addressing; kNoString marks a free slot
     std::vector<std::uint64_t> hashes_;
