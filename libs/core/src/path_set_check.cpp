@@ -1,4 +1,5 @@
 // The rules of a PathSet, checked at one place: what passes here can be read without further checks.
+#include <algorithm>
 #include <cstdint>
 #include <tuple>
 
@@ -37,18 +38,22 @@ Result<void> checkOwners(const std::string& name, const SharedArray<Index>& owne
 }
 
 Result<void> checkStrings(const std::string& name, std::span<const std::uint32_t> indices, std::size_t count, bool mayMiss) {
-    for (const std::uint32_t index : indices)
-        if (index >= count && !(mayMiss && index == kNoString)) return bad("\"" + name + "\" refers to a string that is not there");
+    // Without a way out of the loop, several are looked at together. kNoString + 1 is 0.
+    const std::uint32_t shift = mayMiss ? 1 : 0;
+    const std::size_t limit = count + shift;
+    std::uint32_t most = 0;
+    for (const std::uint32_t index : indices) most = std::max(most, index + shift);
+    if (!indices.empty() && most >= limit) return bad("\"" + name + "\" refers to a string that is not there");
     return {};
 }
 
 /// Numbers that stand for one of `count` names, of every vertex, also where a flag says that there is none.
 Result<void> checkNames(const char* name, const SharedArray<std::uint8_t>& numbers, std::uint8_t count) {
-    for (const std::uint8_t number : numbers)
-        if (number >= count)
-            return bad(std::string("column \"") + name + "\" holds " + std::to_string(number) +
-                       ", but the last known one is " + std::to_string(count - 1));
-    return {};
+    std::uint8_t most = 0;
+    for (const std::uint8_t number : numbers) most = std::max(most, number);
+    if (most < count || numbers.empty()) return {};
+    return bad(std::string("column \"") + name + "\" holds " + std::to_string(most) + ", but the last known one is " +
+               std::to_string(count - 1));
 }
 
 Result<void> checkPaths(const PathColumns& c) {
