@@ -73,7 +73,9 @@ class LightPathMatcher {
     Truth walkMatches();
     Truth wayOf(std::size_t i, bool hit);
     Truth wayMatches(std::size_t first, std::size_t last, char end);
+    bool enter(Index vertex, std::size_t place);
     void readWalk(Index path);
+    std::size_t symbolPlace(Event event, Lobe lobe, std::size_t label) const;
     std::size_t placeOf(Index vertex) const;
     std::uint32_t follow(std::uint32_t node, char symbol);
     void forget();
@@ -84,7 +86,8 @@ class LightPathMatcher {
 
     const LightPathExpression& expression_;
     const PathSet& paths_;
-    std::vector<std::uint8_t> labelClasses_;  ///< per string of the set
+    std::vector<std::uint8_t> labelClasses_;  ///< per string of the set; empty if the expression names none
+    std::vector<char> symbols_;               ///< of every event, lobe and class of label
     bool hasContributions_ = false;
     std::size_t at_ = 0;                      ///< in the list of contributions
     std::string walk_;                        ///< of the path at hand: a symbol per vertex, in order from the camera

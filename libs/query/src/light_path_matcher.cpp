@@ -9,13 +9,25 @@ namespace emca::query::detail {
 LightPathMatcher::LightPathMatcher(const LightPathExpression& expression, const PathSet& paths)
     : expression_(expression), paths_(paths), hasContributions_(!paths.columns().contributions.empty()), width_(expression.symbolCount()) {
     const auto& strings = paths.columns().strings;
-    labelClasses_.resize(strings.size());
-    for (std::size_t i = 0; i < strings.size() && !expression.labels().empty(); ++i) {
-        const auto& labels = expression.labels();
+    const auto& labels = expression.labels();
+    if (!labels.empty()) labelClasses_.resize(strings.size());
+    for (std::size_t i = 0; i < labelClasses_.size(); ++i) {
         const auto found = std::find(labels.begin(), labels.end(), strings[i]);
         if (found != labels.end()) labelClasses_[i] = static_cast<std::uint8_t>(found - labels.begin() + 1);
     }
+    symbols_.resize(symbolPlace(static_cast<Event>(kEventCount), Lobe{}, 0));
+    for (std::uint8_t event = 0; event < kEventCount; ++event)
+        for (std::uint8_t lobe = 0; lobe < kLobeCount; ++lobe)
+            for (std::size_t label = 0; label <= labels.size(); ++label) {
+                const auto e = static_cast<Event>(event);
+                const auto l = static_cast<Lobe>(lobe);
+                symbols_[symbolPlace(e, l, label)] = expression.symbol(e, l, label);
+            }
     forget();
+}
+
+std::size_t LightPathMatcher::symbolPlace(Event event, Lobe lobe, std::size_t label) const {
+    return (static_cast<std::size_t>(event) * kLobeCount + static_cast<std::size_t>(lobe)) * (expression_.labels().size() + 1) + label;
 }
 
 bool LightPathMatcher::emits(Index vertex) const {
@@ -36,28 +48,34 @@ Event LightPathMatcher::eventOf(Index vertex) const {
     return c.events.empty() || (c.vertexFlags[vertex] & VertexFlag::hasEvent) == 0 ? Event::none : static_cast<Event>(c.events[vertex]);
 }
 
-void LightPathMatcher::readWalk(Index path) {
+/// Puts a vertex and its symbol at a place of the walk. False for the camera, or the point on the light, itself.
+bool LightPathMatcher::enter(Index v, std::size_t place) {
     const auto& c = paths_.columns();
+    const Event event = eventOf(v);
+    const bool ends = event == Event::none || event == Event::emission || event == Event::background;
+    if (c.depths[v] == 0 && ends) return false;
+    vertices_[place] = v;
+    const bool labelled = !labelClasses_.empty() && !c.labels.empty() && c.labels[v] < labelClasses_.size();
+    const std::size_t label = labelled ? labelClasses_[c.labels[v]] : 0;
+    walk_[place] = symbols_[symbolPlace(event, static_cast<Lobe>(c.lobes.empty() ? 0 : c.lobes[v]), label)];
+    return true;
+}
+
+void LightPathMatcher::readWalk(Index path) {
     const IndexRange range = paths_.vertices(path);
-    vertices_.clear();
-    walk_.clear();
-    for (Index v = range.first; v < range.last; ++v)
-        if (paths_.subpath(v) == Subpath::camera) vertices_.push_back(v);
-    fromLight_ = vertices_.empty();
-    if (fromLight_) {  // seen from the camera, a light path begins with its last vertex
-        for (Index v = range.last; v-- > range.first;) vertices_.push_back(v);
-    }
+    vertices_.resize(range.size());
+    walk_.resize(range.size());
     std::size_t kept = 0;
-    for (const Index v : vertices_) {
-        const Event event = eventOf(v);
-        const bool ends = event == Event::none || event == Event::emission || event == Event::background;
-        if (c.depths[v] == 0 && ends) continue;  // the camera, or the point on the light, itself
-        vertices_[kept++] = v;
-        std::size_t label = 0;
-        if (!c.labels.empty() && c.labels[v] < labelClasses_.size()) label = labelClasses_[c.labels[v]];
-        walk_ += expression_.symbol(event, static_cast<Lobe>(c.lobes.empty() ? 0 : c.lobes[v]), label);
-    }
+    fromLight_ = true;
+    for (Index v = range.first; v < range.last; ++v)
+        if (paths_.subpath(v) == Subpath::camera) {
+            fromLight_ = false;
+            kept += enter(v, kept);
+        }
+    if (fromLight_)  // seen from the camera, a light path begins with its last vertex
+        for (Index v = range.last; v-- > range.first;) kept += enter(v, kept);
     vertices_.resize(kept);
+    walk_.resize(kept);
     recorded_ = std::min(walk_.find('\0'), walk_.size());
     reached_.assign(1, 0);
     if (next_.size() > kMaximumEntries) forget();
