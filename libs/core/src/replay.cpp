@@ -27,4 +27,25 @@ Verdict compare(Color rendered, Color replayed) {
     return Verdict::different;
 }
 
+ReplayCounts countReplays(std::span<const Replay> replays) {
+    ReplayCounts counts;
+    counts.pixels = replays.size();
+    for (const Replay& replay : replays) {
+        switch (replay.verdict) {
+            case Verdict::exact: ++counts.exact; break;
+            case Verdict::close: ++counts.close; break;
+            case Verdict::different: ++counts.different; break;
+            case Verdict::unknown: ++counts.unknown; break;
+        }
+        counts.sumsDiffer += replay.sums == SumCheck::differs;
+    }
+    return counts;
+}
+
+Verdict ReplayCounts::worst() const {
+    if (different > 0) return Verdict::different;
+    if (close > 0) return Verdict::close;
+    return exact > 0 ? Verdict::exact : Verdict::unknown;
+}
+
 }  // namespace emca

@@ -25,5 +25,24 @@ TEST(Replay, CloseEndsAtOneInTenThousand) {
     EXPECT_EQ(compare({kInf, 0, 0}, {-kInf, 0, 0}), Verdict::different);
 }
 
+TEST(Replay, CountsOfSeveralPixels) {
+    std::vector<Replay> replays(7);
+    EXPECT_EQ(countReplays(replays).worst(), Verdict::unknown);
+    for (const std::size_t i : {0u, 1u, 2u}) replays[i].verdict = Verdict::exact;
+    EXPECT_EQ(countReplays(replays).worst(), Verdict::exact);
+    replays[5].verdict = Verdict::close;
+    EXPECT_EQ(countReplays(replays).worst(), Verdict::close);
+    replays[6].verdict = Verdict::different;
+    replays[6].sums = SumCheck::differs;
+    const ReplayCounts counts = countReplays(replays);
+    EXPECT_EQ(counts.worst(), Verdict::different);
+    EXPECT_EQ(counts.pixels, 7u);
+    EXPECT_EQ(counts.exact, 3u);
+    EXPECT_EQ(counts.close + counts.different, 2u);
+    EXPECT_EQ(counts.unknown, 2u);
+    EXPECT_EQ(counts.sumsDiffer, 1u);
+    EXPECT_EQ(countReplays({}).worst(), Verdict::unknown);
+}
+
 }  // namespace
 }  // namespace emca

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "emca/core/color.h"
 
@@ -25,6 +27,16 @@ struct Replay {
     Color rendered;   ///< from the image; black if verdict is unknown
     Color replayed;   ///< from the renderer's film code, just now
 };
+
+/// The comparisons of several pixels, counted.
+struct ReplayCounts {
+    std::size_t pixels = 0;
+    std::size_t exact = 0, close = 0, different = 0, unknown = 0;
+    std::size_t sumsDiffer = 0;   ///< pixels whose recorded estimates do not add up
+    /// The worst of them; unknown if there are only unknown ones or none.
+    Verdict worst() const;
+};
+ReplayCounts countReplays(std::span<const Replay> replays);
 
 const char* name(Verdict verdict);
 const char* name(SumCheck check);
