@@ -26,7 +26,7 @@ Error usageError(std::string message) { return {ErrorCode::invalidArgument, std:
 /// What CLI11 collects as text; checked afterwards, so that a wrong value gets a sentence of ours.
 struct RawCommandLine {
     std::string scene, output, samples, size, integrator, sampler, seed, threads, serve;
-    std::vector<std::string> defines;
+    std::vector<std::string> defines, tools;
 };
 
 Result<std::uint32_t> parseSamples(const std::string& text) {
@@ -83,6 +83,8 @@ Result<CommandLine> check(const RawCommandLine& raw) {
         if (!serve) return serve.error();
         line.serve = *serve;
     }
+    if (!raw.tools.empty() && !line.serve) return usageError("--tool is there without --serve: tools answer the clients of a server.");
+    line.tools.assign(raw.tools.begin(), raw.tools.end());
     return line;
 }
 
@@ -133,6 +135,7 @@ ParsedCommandLine parseCommandLine(int argc, const char* const* argv) {
     app.add_option("--threads", raw.threads, "how many threads render; without it, one per processor")->type_name("N");
     app.add_option("-D,--define", raw.defines, "value of a $name in the scene file; may be repeated")->type_name("name=value")->allow_extra_args(false);
     app.add_option("--serve", raw.serve, "serve the scene on HOST:PORT; host 127.0.0.1 if not given, port 0 picks one")->type_name("[HOST:]PORT");
+    app.add_option("--tool", raw.tools, "with --serve: a server tool in a shared library of its own; may be repeated")->type_name("FILE")->allow_extra_args(false);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

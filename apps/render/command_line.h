@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emca/core/result.h"
 
@@ -37,6 +38,7 @@ struct CommandLine {
     int threads = 0;  ///< 0: one per processor
     std::map<std::string, std::string> defines;
     std::optional<ServeAddress> serve;
+    std::vector<std::filesystem::path> tools;  ///< server tools in files of their own
 };
 
 /// Exit codes, as DESIGN.md and docs say.

@@ -7,7 +7,9 @@
 #include "emca/imageio/imageio.h"
 #include "emca/render/scene_loader.h"
 #include "emca/server/server.h"
+#include "emca/server/tool_file.h"
 #include "ending_signal.h"
+#include "light_probe_tool.h"
 #include "progress_bar.h"
 #include "renderer_adapter.h"
 
@@ -41,6 +43,18 @@ int renderToFile(const std::shared_ptr<const render::Scene>& scene, const render
     return kExitOk;
 }
 
+/// The renderer's own tools, and those that the command line names.
+Result<void> addTools(Server& server, const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
+                      const CommandLine& line) {
+    if (auto added = server.addTool(std::make_shared<LightProbeTool>(scene, options, line.threads)); !added) return added.error();
+    for (const std::filesystem::path& file : line.tools) {
+        auto tool = loadTool(file);
+        if (!tool) return tool.error();
+        if (auto added = server.addTool(std::move(tool).value()); !added) return added.error();
+    }
+    return {};
+}
+
 int serve(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
           const CommandLine& line, EndingSignal& ending) {
     RendererAdapter adapter(scene, options, line.integrator.value_or("path"), line.threads);
@@ -51,6 +65,7 @@ int serve(const std::shared_ptr<const render::Scene>& scene, const render::Rende
     serverOptions.log = [](const std::string& remark) { std::cerr << remark << std::endl; };
     auto server = Server::start(adapter, serverOptions);
     if (!server) return fail(server.error(), kExitConnection);
+    if (auto added = addTools(**server, scene, options, line); !added) return fail(added.error(), kExitInput);
     ending.setAction([&server] { (*server)->stop(); });
     std::cout << "listening on " << (*server)->address() << std::endl;
     (*server)->wait();

@@ -25,7 +25,7 @@ const std::map<std::string, Rule>& rules() {
         {"libs/query", {{"core", "query"}, {"re2/"}}},
         {"libs/probe", {{"core", "probe"}, {}}},
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
-        {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio"}}},
+        {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio", "dlfcn.h"}}},
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
         {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "jpeglib.h", "dlfcn.h", "link.h"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},

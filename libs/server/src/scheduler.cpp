@@ -6,7 +6,7 @@
 namespace emca {
 
 Scheduler::Scheduler(bool separateLanes, Work work) : work_(std::move(work)) {
-    for (int i = 0; i < (separateLanes ? 2 : 1); ++i) queues_.push_back(std::make_unique<Queue>());
+    for (int i = 0; i < (separateLanes ? kLanes : 1); ++i) queues_.push_back(std::make_unique<Queue>());
     for (auto& queue : queues_) threads_.emplace_back([this, &queue = *queue] { runQueue(queue); });
 }
 

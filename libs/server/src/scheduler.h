@@ -14,16 +14,17 @@
 
 namespace emca {
 
-/// Renders of whole images take minutes; all else should feel immediate.
-enum class Lane : std::uint8_t { image = 0, interactive = 1 };
+/// Renders of whole images take minutes, and nobody knows how long tools take; all else should feel immediate.
+enum class Lane : std::uint8_t { image = 0, interactive = 1, tool = 2 };
+inline constexpr int kLanes = 3;
 
-/// Runs requests in threads of its own, one per lane, or one for both lanes where a renderer does one thing at a time.
+/// Runs requests in threads of its own, one per lane, or one for all lanes where a renderer does one thing at a time.
 /// Clients take turns (round robin), so that one that asks much does not keep the others waiting.
 class Scheduler {
   public:
     using Work = std::function<void(const std::shared_ptr<Request>&)>;
 
-    /// \param separateLanes  whether images and interactive requests may run at the same time
+    /// \param separateLanes  whether requests of several lanes may run at the same time
     Scheduler(bool separateLanes, Work work);
     ~Scheduler() { stop(); }
     Scheduler(const Scheduler&) = delete;

@@ -98,6 +98,7 @@ Service::Answer Service::dispatch(const std::shared_ptr<Request>& request) {
 
 Lane Service::laneOf(const protocol::Body& request) {
     if (std::holds_alternative<protocol::RenderRequest>(request)) return Lane::image;
+    if (std::holds_alternative<protocol::ToolRequest>(request)) return Lane::tool;
     // A query over a large part of the image takes as long as rendering it.
     constexpr std::uint64_t kQuickPixels = 4096;
     const auto* trace = std::get_if<protocol::TraceRequest>(&request);
@@ -235,14 +236,21 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
 }
 
 Service::Answer Service::answer(const std::shared_ptr<Request>& request, const protocol::ToolRequest& asked) {
-    for (const auto& tool : tools()) {
-        if (tool->name() != asked.tool) continue;
-        JobMonitor monitor(request, false);
-        auto reply = tool->answer(asked.data.span(), monitor);
-        if (!reply) return reply.error();
-        return last(protocol::ToolResult{SharedArray<std::byte>(std::move(reply).value())});
-    }
-    return Error{ErrorCode::notSupported, "There is no tool \"" + asked.tool.substr(0, 100) + "\" at this server."};
+    JobMonitor monitor(request, false);
+    auto reply = ask(asked.tool, asked.data.span(), monitor);
+    if (!reply) return reply.error();
+    return last(protocol::ToolResult{SharedArray<std::byte>(std::move(reply).value())});
+}
+
+Result<std::vector<std::byte>> Service::ask(const std::string& tool, std::span<const std::byte> request, RequestMonitor& monitor) {
+    if (const auto found = findTool(tool)) return found->answer(request, monitor);
+    return Error{ErrorCode::notSupported, "There is no tool \"" + tool.substr(0, 100) + "\" at this server."};
+}
+
+std::shared_ptr<ServerTool> Service::findTool(const std::string& name) const {
+    for (const auto& tool : tools())
+        if (tool->name() == name) return tool;
+    return nullptr;
 }
 
 std::vector<std::shared_ptr<ServerTool>> Service::tools() const {
@@ -250,13 +258,21 @@ std::vector<std::shared_ptr<ServerTool>> Service::tools() const {
     return tools_;
 }
 
+std::vector<std::shared_ptr<ServerTool>> Service::observers() const {
+    const std::lock_guard lock(toolsMutex_);
+    return observers_;
+}
+
 Result<void> Service::addTool(std::shared_ptr<ServerTool> tool) {
     if (!tool) return Error{ErrorCode::invalidArgument, "A server tool was expected, but there is none."};
     const std::string name = tool->name();
+    const bool observes = tool->observesReplay();
     const std::lock_guard lock(toolsMutex_);
     for (const auto& other : tools_) {
         if (other->name() == name) return Error{ErrorCode::invalidArgument, "There is a server tool \"" + name + "\" already."};
     }
+    tool->setHost(*this);
+    if (observes) observers_.push_back(tool);
     tools_.push_back(std::move(tool));
     return {};
 }

@@ -20,7 +20,7 @@ struct ScanResult;
 struct SurfaceCollection;
 
 /// Answers requests with the renderer's help; knows nothing of sockets. run() is called by the scheduler's threads.
-class Service {
+class Service final : private ToolHost {
   public:
     /// Errors: rendererFailed (its info() threw or makes no sense).
     static Result<std::unique_ptr<Service>> make(Renderer& renderer, const ServerOptions& options);
@@ -48,6 +48,7 @@ class Service {
     Answer answer(const std::shared_ptr<Request>&, const protocol::RenderRequest&);
     Answer answer(const std::shared_ptr<Request>&, const protocol::TraceRequest&);
     Answer answer(const std::shared_ptr<Request>&, const protocol::ToolRequest&);
+    Result<std::vector<std::byte>> ask(const std::string& tool, std::span<const std::byte> request, RequestMonitor& monitor) override;
     Result<ScanResult> replay(const std::shared_ptr<Request>&, const ScanOptions& options);
     Result<ScanResult> scan(const std::shared_ptr<Request>&, const std::string& query, ScanOptions options);
 
@@ -65,6 +66,8 @@ class Service {
     Result<void> checkSamples(std::uint32_t samplesPerPixel) const;
     Result<std::vector<Pixel>> pixelsOf(const protocol::TraceRequest& request) const;
     std::vector<std::shared_ptr<ServerTool>> tools() const;
+    std::vector<std::shared_ptr<ServerTool>> observers() const;
+    std::shared_ptr<ServerTool> findTool(const std::string& name) const;
 
     Renderer& renderer_;
     const ServerOptions options_;
@@ -77,7 +80,7 @@ class Service {
     std::atomic<bool> sceneCounted_{false};     // the two below are set
     std::atomic<std::uint64_t> triangles_{0}, meshes_{0};
     mutable std::mutex toolsMutex_;
-    std::vector<std::shared_ptr<ServerTool>> tools_;
+    std::vector<std::shared_ptr<ServerTool>> tools_, observers_;
 };
 
 RenderSettings toRenderer(const protocol::Settings& settings);

@@ -92,7 +92,7 @@ Result<ScanResult> Service::replay(const std::shared_ptr<Request>& request, cons
     recorded.budgetBytes = options.budgetBytes;
     recorded.locations = options.locations;
     recorded.observer = options.observer;
-    JobMonitor monitor(request, false, tools());
+    JobMonitor monitor(request, false, observers());
     return replayPixels(renderer_, std::move(recorded), options.settings, monitor);
 }
 
@@ -102,8 +102,8 @@ Result<ScanResult> Service::scan(const std::shared_ptr<Request>& request, const 
     if (!query) return query.error();
     options.onePass = info_.pathsReachAnyPixel;
     // Tools are told of one pixel at a time.
-    if (info_.concurrent && tools().empty()) options.threads = info_.threads ? info_.threads : std::thread::hardware_concurrency();
-    JobMonitor monitor(request, false, tools());
+    if (info_.concurrent && observers().empty()) options.threads = info_.threads ? info_.threads : std::thread::hardware_concurrency();
+    JobMonitor monitor(request, false, observers());
     return scanPaths(renderer_, *query, options, monitor);
 }
 
@@ -117,7 +117,7 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
     const Reference reference = referenceOf(asked, images_, sceneSettings());
     if (auto samples = checkSamples(reference.settings.samplesPerPixel); !samples) return samples.error();
 
-    ToolObserver observer(tools());
+    ToolObserver observer(observers());
     ScanOptions options;
     // A pixel that is asked for twice is replayed once: its paths would otherwise be recorded on top of each other.
     options.pixels = *pixels;
@@ -130,7 +130,7 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
     options.budgetBytes = asked.budget == 0 ? options_.defaultBudget
                                             : std::min<std::uint64_t>(asked.budget, options_.maximumBudget);
     options.locations = asked.locations;
-    if (!tools().empty()) options.observer = &observer;
+    if (!observers().empty()) options.observer = &observer;
 
     const auto begin = std::chrono::steady_clock::now();
     auto done = asked.query.empty() ? replay(request, options) : scan(request, asked.query, options);
