@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/qt_compat.h"
 #include "base/theme.h"
 
 namespace emca::explorer {
@@ -98,6 +99,15 @@ void CompletingField::showAll() {
 void CompletingField::mousePressEvent(QMouseEvent* event) {
     QLineEdit::mousePressEvent(event);
     if (text().isEmpty() && event->button() == Qt::LeftButton) showAll();
+}
+
+/// What is undone, the window knows: its history holds all fields.
+bool CompletingField::event(QEvent* event) {
+    if (event->type() == QEvent::ShortcutOverride && isUndoKey(*static_cast<QKeyEvent*>(event))) {
+        event->ignore();
+        return true;
+    }
+    return QLineEdit::event(event);
 }
 
 void CompletingField::keyPressEvent(QKeyEvent* event) {

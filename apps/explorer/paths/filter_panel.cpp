@@ -85,7 +85,8 @@ void FilterPanel::build() {
     connect(select_, &QPushButton::clicked, this, &FilterPanel::select);
     connect(clear_, &QPushButton::clicked, this, &FilterPanel::clear);
     connect(automatic_, &QCheckBox::toggled, this, [this](bool on) {
-        if (on && model_->state() != FilterModel::State::empty) select();
+        if (on && !writing_ && model_->state() != FilterModel::State::empty) select();
+        if (!writing_) emit edited();
     });
     connect(model_, &FilterModel::changed, this, &FilterPanel::showAnswer);
     addExamples();
@@ -173,28 +174,39 @@ QString FilterPanel::queryText() const { return field_->toPlainText(); }
 
 void FilterPanel::setQueryText(const QString& text) { field_->write(text); }
 
-RuleRow& FilterPanel::addRule(const query::Rule& rule) {
+RuleRow& FilterPanel::makeRow() {
     auto* row = new RuleRow(model_->paths());
     rows_.push_back(row);
     rowLayout_->addWidget(row);
     row->show();
     connect(row, &RuleRow::changed, this, &FilterPanel::rulesChanged);
     connect(row, &RuleRow::removeWanted, this, [this, row] { removeRule(row); });
-    updateRules();
-    if (!rule.quantity.empty()) {
-        row->setRule(rule);
-        rulesChanged();
-    }
-    row->quantity().setFocus();
     return *row;
 }
 
-void FilterPanel::removeRule(RuleRow* row) {
+RuleRow& FilterPanel::addRule(const query::Rule& rule) {
+    RuleRow& row = makeRow();
+    updateRules();
+    if (!rule.quantity.empty()) {
+        row.setRule(rule);
+        applyRules();
+    }
+    row.quantity().setFocus();
+    emit edited();
+    return row;
+}
+
+void FilterPanel::dropRow(RuleRow* row) {
     rows_.erase(std::remove(rows_.begin(), rows_.end(), row), rows_.end());
     row->hide();
     row->deleteLater();
+}
+
+void FilterPanel::removeRule(RuleRow* row) {
+    dropRow(row);
     if (byHand_) updateRules();
-    else rulesChanged();
+    else applyRules();
+    emit edited();
 }
 
 std::vector<query::Rule> FilterPanel::rules() const {
@@ -203,8 +215,13 @@ std::vector<query::Rule> FilterPanel::rules() const {
     return rules;
 }
 
-/// Writes the query that the rules stand for. While none is complete, what stands in the field is left alone.
 void FilterPanel::rulesChanged() {
+    applyRules();
+    emit edited();
+}
+
+/// Writes the query that the rules stand for. While none is complete, what stands in the field is left alone.
+void FilterPanel::applyRules() {
     const auto text = query::toQuery(rules(), model_->paths());
     ruleError_ = text ? QString() : tr("Rule: %1").arg(toQString(text.error().message));
     if (text && (!text->empty() || !ruleQuery_.isEmpty())) {
@@ -222,6 +239,7 @@ void FilterPanel::queryEdited() {
     if (writing_) return;
     byHand_ = !rows_.empty() && queryText() != ruleQuery_;
     updateRules();
+    emit edited();
 }
 
 void FilterPanel::backToRules() {
@@ -253,7 +271,7 @@ void FilterPanel::reload() {
     selectLater_ = false;
     model_->setPaths(dataset_.paths());
     for (RuleRow* row : rows_) row->refresh();
-    if (!byHand_ && !rows_.empty()) rulesChanged();
+    if (!byHand_ && !rows_.empty()) applyRules();
     else updateRules();
     if (isAutomatic() && !dataset_.paths().empty() && model_->state() != FilterModel::State::empty) select();
 }
@@ -310,12 +328,39 @@ void FilterPanel::select() {
     selection_.setPaths(pathIds(model_->paths(), model_->matches().paths));
 }
 
-void FilterPanel::clear() {
-    for (RuleRow* row : rows_) {
-        row->hide();
-        row->deleteLater();
+client::SavedFilter FilterPanel::state() const {
+    client::SavedFilter state{field_->text(), {}, byHand_, isAutomatic()};
+    for (const query::Rule& rule : rules())
+        state.rules.push_back({rule.quantity, static_cast<std::uint8_t>(rule.over), static_cast<std::uint8_t>(rule.op), rule.value});
+    return state;
+}
+
+void FilterPanel::setState(const client::SavedFilter& state) {
+    {
+        const QScopedValueRollback<bool> guard(writing_, true);
+        selectLater_ = false;
+        // Rows that stay keep the focus.
+        while (rows_.size() > state.rules.size()) dropRow(rows_.back());
+        while (rows_.size() < state.rules.size()) makeRow();
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            const client::SavedFilter::Rule& rule = state.rules[i];
+            const query::Rule wanted{rule.quantity, static_cast<query::Quantifier>(rule.over), static_cast<query::RuleOperator>(rule.operation), rule.value};
+            if (rows_[i]->rule() != wanted) rows_[i]->setRule(wanted);
+        }
+        const auto text = query::toQuery(rules(), model_->paths());
+        ruleQuery_ = text ? toQString(*text) : QString();
+        ruleError_.clear();
+        byHand_ = state.byHand && !rows_.empty();
+        field_->write(toQString(state.query));
+        automatic_->setChecked(state.automatic);
     }
-    rows_.clear();
+    updateRules();
+    showAnswer();
+    emit edited();
+}
+
+void FilterPanel::clear() {
+    while (!rows_.empty()) dropRow(rows_.back());
     ruleQuery_.clear();
     ruleError_.clear();
     byHand_ = selectLater_ = false;
@@ -326,6 +371,7 @@ void FilterPanel::clear() {
     updateRules();
     showAnswer();
     selection_.clearPaths();
+    emit edited();
 }
 
 }  // namespace emca::explorer

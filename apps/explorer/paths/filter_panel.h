@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/listeners.h"
+#include "emca/client/session.h"
 #include "emca/query/rules.h"
 #include "paths/filter_model.h"
 
@@ -48,12 +49,21 @@ class FilterPanel : public QWidget {
     void select();
     void clear();
 
+    /// All that a person chose here: what sessions and settings keep and what is undone.
+    client::SavedFilter state() const;
+    /// Selects nothing, whether or not it is automatic: only later pixels do.
+    void setState(const client::SavedFilter& state);
+
     QueryField& field() { return *field_; }
     const FilterModel& model() const { return *model_; }
     QString countText() const;   ///< "12 of 1,024 paths"
     QString noteText() const;    ///< what is unknown or missing; the error
     /// Nothing is being computed.
     bool isSettled() const { return model_->state() != FilterModel::State::running; }
+
+  signals:
+    /// state() is another one. Where it comes with another selection, that is told first.
+    void edited();
 
   private:
     void build();
@@ -62,6 +72,9 @@ class FilterPanel : public QWidget {
     void addExamples();
     void removeRule(RuleRow* row);
     void rulesChanged();
+    void applyRules();
+    RuleRow& makeRow();
+    void dropRow(RuleRow* row);
     void queryEdited();
     void reload();
     void showAnswer();

@@ -5,11 +5,13 @@
 #include <QTextBlock>
 #include <algorithm>
 
+#include "base/qt_compat.h"
 #include "base/theme.h"
 
 namespace emca::explorer {
 
 QueryField::QueryField(Theme& theme, QWidget* parent) : QPlainTextEdit(parent), theme_(theme) {
+    setUndoRedoEnabled(false);   // one history for all of the window
     setTabChangesFocus(true);
     setLineWrapMode(QPlainTextEdit::WidgetWidth);
     setVerticalScrollBarPolicy(Qt::ScrollBarAsNeeded);
@@ -66,6 +68,14 @@ void QueryField::removeUnderline() { setExtraSelections({}); }
 QString QueryField::underlined() const {
     const auto selections = extraSelections();
     return selections.isEmpty() ? QString() : selections.front().cursor.selectedText();
+}
+
+bool QueryField::event(QEvent* event) {
+    if (event->type() == QEvent::ShortcutOverride && isUndoKey(*static_cast<QKeyEvent*>(event))) {
+        event->ignore();
+        return true;
+    }
+    return QPlainTextEdit::event(event);
 }
 
 void QueryField::keyPressEvent(QKeyEvent* event) {

@@ -10,13 +10,13 @@ namespace emca::explorer {
 class Theme;
 
 /// Where a query is written: a few lines, of which the piece that is wrong is underlined. Enter accepts, Shift+Enter
-/// begins a line, Tab goes on.
+/// begins a line, Tab goes on. What is undone, the window knows.
 class QueryField : public QPlainTextEdit {
     Q_OBJECT
   public:
     explicit QueryField(Theme& theme, QWidget* parent = nullptr);
 
-    /// Can be undone. Tells nobody if it is what stands there.
+    /// Tells nobody if it is what stands there.
     void write(const QString& text);
     std::string text() const { return toPlainText().toStdString(); }
     void underline(query::SourceRange where);
@@ -29,6 +29,7 @@ class QueryField : public QPlainTextEdit {
     void accepted();
 
   protected:
+    bool event(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
 
   private:

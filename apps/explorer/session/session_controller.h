@@ -53,8 +53,18 @@ class SessionController : public QObject {
     bool isSavingSession() const { return saving_ != nullptr; }
     /// Of the session that is opened or saved; negative: not known yet.
     double sessionFraction() const { return saving_ ? saving_->fraction.load() : opening_ ? opening_->fraction.load() : 0; }
-    /// What a person wrote into the session that was opened last; saved again with the next one.
+    /// What a person wrote, here or into the session that was opened last; saved with the next one.
     const std::string& notes() const { return notes_; }
+    void setNotes(std::string notes);
+    /// By pixel, row by row; none is empty.
+    const std::vector<client::PixelNote>& pixelNotes() const { return pixelNotes_; }
+    /// Empty if there is none.
+    const std::string& pixelNote(Pixel pixel) const;
+    /// \param text  empty: there is no note any more
+    void setPixelNote(Pixel pixel, std::string text);
+    /// What was asked of the paths; saved with the next session, and what the last one that was opened held.
+    const std::optional<client::SavedFilter>& filter() const { return filter_; }
+    void setFilter(const client::SavedFilter& filter) { filter_ = filter == client::SavedFilter() ? std::nullopt : std::optional(filter); }
     /// The image that connecting has rendered, so that nobody asked for it; null if none.
     std::shared_ptr<const RenderedImage> automaticImage() const { return automaticImage_.lock(); }
     /// Nothing is under way and nothing is waiting for a connection.
@@ -105,6 +115,7 @@ class SessionController : public QObject {
     void sessionSaveEnded(const QString& file, bool saved);
     void failed(emca::explorer::FailedTask task, const QString& sentence);
 
+    void notesChanged();
   private:
     struct Opened;
     void open();
@@ -171,6 +182,7 @@ class SessionController : public QObject {
     };
     std::deque<Known> known_;
 
+    std::optional<client::SavedFilter> filter_;
     Workers workers_;
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;

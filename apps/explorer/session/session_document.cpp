@@ -23,9 +23,11 @@ SessionDocument::SessionDocument(client::Dataset& dataset, SessionController& se
         complete_ = complete;
         saved_.clear();
         for (const auto& work : works()) saved_.push_back(work);
+        savedNotes_ = notesOf(session_);
         remember(file);
     });
     connect(&session, &SessionController::sessionSaveEnded, this, &SessionDocument::saveEnded);
+    connect(&session, &SessionController::notesChanged, this, &SessionDocument::changed);
     connect(&session, &SessionController::imageOpened, this, &SessionDocument::remember);
 }
 
@@ -44,6 +46,8 @@ std::vector<std::shared_ptr<const void>> SessionDocument::works() const {
         if (isRender(entry)) all.push_back(entry.image);
     return all;
 }
+
+SessionDocument::Notes SessionDocument::notesOf(const SessionController& session) { return {session.notes(), session.pixelNotes()}; }
 
 bool SessionDocument::isSaved(const void* work) const {
     return std::ranges::any_of(saved_, [&](const auto& held) { return held.lock().get() == work; });
@@ -65,7 +69,9 @@ QString SessionDocument::unsavedWork() const {
     QStringList parts;
     if (pixels) parts << (pixels == 1 ? tr("1 traced pixel") : tr("%1 traced pixels").arg(pixels));
     if (renders) parts << (renders == 1 ? tr("1 render") : tr("%1 renders").arg(renders));
-    return parts.join(tr(" and "));
+    if (hasUnsavedNotes()) parts << tr("notes");
+    const QString last = parts.isEmpty() ? QString() : parts.takeLast();
+    return parts.isEmpty() ? last : parts.join(QStringLiteral(", ")) + tr(" and ") + last;
 }
 
 void SessionDocument::setRecent(const QStringList& files) {
@@ -92,6 +98,7 @@ void SessionDocument::save(const QString& file) {
     }
     saving_.clear();
     for (const auto& work : works()) saving_.push_back(work);
+    savingNotes_ = notesOf(session_);
     session_.saveSession(file);
 }
 
@@ -100,6 +107,7 @@ void SessionDocument::saveEnded(const QString& file, bool saved) {
         file_ = absolute(file);
         complete_ = true;
         saved_ = std::move(saving_);
+        savedNotes_ = savingNotes_;
         remember(file);
     }
     saving_.clear();

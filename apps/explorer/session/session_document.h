@@ -4,9 +4,12 @@
 #include <QStringList>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/listeners.h"
+#include "emca/client/session.h"
 
 namespace emca::explorer {
 
@@ -14,7 +17,7 @@ class SessionController;
 
 /// What is in the window as a file: its name, what of it is not saved yet, and the files of before. GUI thread.
 ///
-/// Unsaved work is what somebody waited for: traced pixels and finished renders. The image that connecting renders by
+/// Unsaved work is what somebody waited for or wrote: traced pixels, finished renders, notes. The image that connecting renders by
 /// itself is none, images from disk are there anyway, and a selection is quickly made again.
 class SessionDocument : public QObject {
     Q_OBJECT
@@ -29,11 +32,14 @@ class SessionDocument : public QObject {
     /// what could not be read would be lost.
     QString target() const { return complete_ ? file_ : QString(); }
     bool isComplete() const { return complete_; }
-    bool isModified() const { return unsavedPixels() + unsavedRenders() > 0; }
+    bool isModified() const { return unsavedPixels() + unsavedRenders() > 0 || hasUnsavedNotes(); }
     std::size_t unsavedPixels() const;
     std::size_t unsavedRenders() const;
-    /// "3 traced pixels and 1 render"; empty if all is saved.
+    bool hasUnsavedNotes() const { return notesOf(session_) != savedNotes_; }
+    /// "3 traced pixels, 1 render and notes"; empty if all is saved.
     QString unsavedWork() const;
+    /// It is one thing, not several.
+    bool isOneWork() const { return unsavedPixels() + unsavedRenders() == 1 && !hasUnsavedNotes(); }
 
     /// Sessions and images, newest first, absolute.
     const QStringList& recent() const { return recent_; }
@@ -49,6 +55,8 @@ class SessionDocument : public QObject {
     void changed();
 
   private:
+    using Notes = std::pair<std::string, std::vector<client::PixelNote>>;
+    static Notes notesOf(const SessionController& session);
     void saveEnded(const QString& file, bool saved);
     void dataChanged(std::uint32_t parts);
     std::vector<std::shared_ptr<const void>> works() const;
@@ -61,6 +69,7 @@ class SessionDocument : public QObject {
     QStringList recent_;
     /// Kept weakly: a saved image may go. An address that is used again would look saved, so addresses alone do not do.
     std::vector<std::weak_ptr<const void>> saved_, saving_;
+    Notes savedNotes_, savingNotes_;
     std::optional<QString> next_;   ///< to be saved after the one that runs
     DatasetListening datasetListening_;
 };

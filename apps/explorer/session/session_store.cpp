@@ -25,7 +25,30 @@ void endPreviews(std::vector<client::ImageEntry>& images) {
     }
 }
 
+bool byRow(Pixel a, Pixel b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+
 }  // namespace
+
+void SessionController::setNotes(std::string notes) {
+    if (notes == notes_) return;
+    notes_ = std::move(notes);
+    emit notesChanged();
+}
+
+const std::string& SessionController::pixelNote(Pixel pixel) const {
+    static const std::string none;
+    const auto found = std::ranges::find(pixelNotes_, pixel, &client::PixelNote::pixel);
+    return found == pixelNotes_.end() ? none : found->text;
+}
+
+void SessionController::setPixelNote(Pixel pixel, std::string text) {
+    if (text == pixelNote(pixel)) return;
+    const auto found = std::ranges::find(pixelNotes_, pixel, &client::PixelNote::pixel);
+    if (text.empty()) pixelNotes_.erase(found);
+    else if (found != pixelNotes_.end()) found->text = std::move(text);
+    else pixelNotes_.insert(std::ranges::lower_bound(pixelNotes_, pixel, byRow, &client::PixelNote::pixel), {pixel, std::move(text)});
+    emit notesChanged();
+}
 
 void SessionController::openSession(const QString& file) {
     if (opening_) *opening_->cancel = true;
@@ -74,12 +97,16 @@ void SessionController::showSession(client::Session session) {
     notes_ = std::move(session.notes);
     pixelNotes_ = std::move(session.pixelNotes);
     renderCount_ = std::max(renderCount_, static_cast<int>(session.images.size()));
+    std::erase_if(pixelNotes_, [](const client::PixelNote& note) { return note.text.empty(); });
+    std::ranges::stable_sort(pixelNotes_, byRow, &client::PixelNote::pixel);
+    filter_ = std::move(session.filter);
     lastRequest_.clear();
     {
         const QScopedValueRollback<bool> quiet(showing_, true);
         client::show(session, dataset_, selection_);
     }
     if (!stays) return;
+    emit notesChanged();
     if (!session.meshes) loadScene();
     if (session.shown.empty()) ensureTraced(true);
 }
@@ -90,6 +117,7 @@ void SessionController::saveSession(const QString& file) {
     session.notes = notes_;
     session.pixelNotes = pixelNotes_;
     // Layers without the scene they lie on cannot be kept: it is still on its way, as they were.
+    session.filter = filter_;
     if (!session.meshes) session.surface = nullptr;
     auto activity = std::make_shared<Activity>();
     saving_ = activity;

@@ -70,7 +70,7 @@ std::vector<QAction*> FileMenu::addTo(QMenu& menu) {
 
 void FileMenu::updateActions() {
     if (!saveSession_) return;
-    const bool something = dataset_.info() || !dataset_.images().empty() || !dataset_.traces().empty();
+    const bool something = dataset_.info() || !dataset_.images().empty() || !dataset_.traces().empty() || document_.hasUnsavedNotes();
     saveSession_->setEnabled(something);
     saveSessionAs_->setEnabled(something);
     saveImage_->setEnabled(dataset_.currentImage() != nullptr);
@@ -214,9 +214,8 @@ void FileMenu::withoutLoss(const QString& question, const QString& discard, std:
     if (!document_.isModified()) return action();
     const QString work = document_.unsavedWork();
     const QString sentence = document_.file().isEmpty() ? tr("%1 are in no file yet.") : tr("%1 are not in the file yet.");
-    const bool one = document_.unsavedPixels() + document_.unsavedRenders() == 1;
     const QString single = document_.file().isEmpty() ? tr("%1 is in no file yet.") : tr("%1 is not in the file yet.");
-    card_->present(NoticeCard::Tone::question, question, {(one ? single : sentence).arg(work)},
+    card_->present(NoticeCard::Tone::question, question, {(document_.isOneWork() ? single : sentence).arg(work)},
                    {{tr("Cancel"), {}, false},
                     {discard, action, false},
                     {document_.target().isEmpty() ? tr("Save as…") : tr("Save"), [this, action] { save(action); }, true}});

@@ -22,24 +22,23 @@
 #include "scene/surface_panel.h"
 #include "window/connect_panel.h"
 #include "window/file_menu.h"
+#include "window/filter_settings.h"
 #include "window/history_view.h"
+#include "window/layouts.h"
+#include "window/notes_panel.h"
 #include "window/panel_dock.h"
 #include "window/sample_box.h"
+#include "window/shortcut_panel.h"
 #include "window/status_strip.h"
 #include "window/toast.h"
+#include "window/view_options.h"
 
 namespace emca::explorer {
-namespace {
-
-/// Raised whenever docks are added or renamed: an older saved layout would hide the new ones.
-constexpr int kLayoutVersion = 3;
-
-}  // namespace
 
 MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, SessionController& session, Theme& theme,
                        QSettings& settings)
     : dataset_(dataset), selection_(selection), session_(session), theme_(theme), settings_(settings),
-      views_(Views::make(dataset, selection, theme)), undo_(selection),
+      views_(Views::make(dataset, selection, theme)), history_(selection, *views_.filter),
       datasetListening_(dataset, [this](std::uint32_t parts) {
           if (parts & (client::DatasetPart::info | client::DatasetPart::images | client::DatasetPart::currentImage)) showStates();
           if (parts & (client::DatasetPart::info | client::DatasetPart::currentTrace)) status_->refresh();
@@ -65,6 +64,14 @@ MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, S
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(status_, 1);
     addDocks();
+    layouts_ = new Layouts(*this, settings, [this] {
+        std::vector<PanelDock*> docks;
+        for (const auto& [name, made] : docks_) docks.push_back(made);
+        return docks;
+    }, {[this] { return viewOptions(views_); }, [this](const QVariantMap& options) { setViewOptions(views_, options); }}, this);
+    connect(layouts_, &Layouts::arranged, this, &MainWindow::updateDockTitles);
+    layouts_->apply("default");
+    shortcuts_ = new ShortcutPanel(theme, this);
     addMenus();
     addToolBar();
     connectSession();
@@ -105,46 +112,10 @@ void MainWindow::addDocks() {
     addDock(tr("History"), "history", views_.history);
     addDock(tr("Surfaces"), "surfaces", views_.surfaceScroll);
     addDock(tr("3D options"), "sceneOptions", views_.sceneOptions);
-    arrange();
+    addDock(tr("Notes"), "notes", notes_ = new NotesPanel(selection_, session_, theme_));
 }
 
-/// All docks share one area, so that splits nest as LOOK wants: image over plots | 3D and tools over tree and table.
-void MainWindow::arrange() {
-    PanelDock* image = dock("image");
-    PanelDock* scene = dock("scene");
-    PanelDock* tools = dock("outliers");
-    for (const auto& [name, made] : docks_) {
-        removeDockWidget(made);
-        made->setFloating(false);
-    }
-    addDockWidget(Qt::LeftDockWidgetArea, image);
-    splitDockWidget(image, scene, Qt::Horizontal);
-    if (!views_.plots.empty()) {
-        PanelDock* first = dock(views_.plots.front().name);
-        splitDockWidget(image, first, Qt::Vertical);
-        for (std::size_t i = 1; i < views_.plots.size(); ++i) tabifyDockWidget(dock(views_.plots[i - 1].name), dock(views_.plots[i].name));
-    }
-    splitDockWidget(scene, dock("paths"), Qt::Vertical);
-    splitDockWidget(dock("paths"), dock("vertex"), Qt::Horizontal);
-    splitDockWidget(scene, tools, Qt::Horizontal);
-    tabifyDockWidget(tools, dock("filter"));
-    tabifyDockWidget(dock("filter"), dock("history"));
-    tabifyDockWidget(dock("history"), dock("surfaces"));
-    tabifyDockWidget(dock("surfaces"), dock("sceneOptions"));
-    for (const auto& [name, made] : docks_) made->show();
-
-    const int w = width(), h = height() - 120;
-    const int toolsWidth = std::min(364, w * 23 / 100), left = w * 2 / 5, right = w - left;
-    resizeDocks({image, scene, tools}, {left, right - toolsWidth, toolsWidth}, Qt::Horizontal);
-    if (!views_.plots.empty()) resizeDocks({image, dock(views_.plots.front().name)}, {h * 56 / 100, h * 44 / 100}, Qt::Vertical);
-    resizeDocks({scene, dock("paths")}, {h * 58 / 100, h * 42 / 100}, Qt::Vertical);
-    resizeDocks({dock("paths"), dock("vertex")}, {right * 54 / 100, right * 46 / 100}, Qt::Horizontal);
-    if (!views_.plots.empty()) dock(views_.plots.front().name)->raise();
-    tools->raise();
-    updateDockTitles();
-}
-
-void MainWindow::resetLayout() { arrange(); }
+void MainWindow::resetLayout() { layouts_->apply("default"); }
 
 void MainWindow::updateDockTitles() {
     // Docks report moves before the layout knows their new neighbours.
@@ -165,8 +136,7 @@ void MainWindow::showEvent(QShowEvent* event) {
     if (arranged_) return;
     arranged_ = true;
     // Sizes of docks hold only once the window has its own.
-    const QByteArray state = settings_.value("window/state").toByteArray();
-    if (state.isEmpty() || !restoreState(state, kLayoutVersion)) arrange();
+    if (!layouts_->restore()) layouts_->apply("default");
     updateDockTitles();
 }
 
@@ -175,13 +145,16 @@ void MainWindow::readSettings() {
     connectPanel_->setHistory(settings_.value("connections").toStringList());
     if (const QByteArray geometry = settings_.value("window/geometry").toByteArray(); !geometry.isEmpty()) restoreGeometry(geometry);
     action("renderOnConnect")->setChecked(settings_.value("renderOnConnect", true).toBool());
+    views_.filter->setState(readFilter(settings_));
+    history_.clear();
 }
 
 void MainWindow::writeSettings() {
     settings_.setValue("theme", theme_.isDark() ? "dark" : "light");
     settings_.setValue("connections", connectPanel_->history());
     settings_.setValue("window/geometry", saveGeometry());
-    settings_.setValue("window/state", saveState(kLayoutVersion));
+    layouts_->keep();
+    writeFilter(settings_, views_.filter->state());
     settings_.setValue("renderOnConnect", action("renderOnConnect")->isChecked());
 }
 

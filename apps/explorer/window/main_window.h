@@ -10,7 +10,7 @@
 #include "base/listeners.h"
 #include "base/theme.h"
 #include "session/session_controller.h"
-#include "window/selection_undo.h"
+#include "window/edit_history.h"
 #include "window/views.h"
 
 class QAction;
@@ -21,8 +21,11 @@ namespace emca::explorer {
 
 class ConnectPanel;
 class FileMenu;
+class Layouts;
+class NotesPanel;
 class PanelDock;
 class SampleBox;
+class ShortcutPanel;
 class StateOverlay;
 class StatusStrip;
 class Toast;
@@ -43,6 +46,9 @@ class MainWindow : public QMainWindow {
     Toast& toast() { return *toast_; }
     FileMenu& files() { return *files_; }
     ConnectPanel& connectPanel() { return *connectPanel_; }
+    Layouts& layouts() { return *layouts_; }
+    NotesPanel& notes() { return *notes_; }
+    ShortcutPanel& shortcuts() { return *shortcuts_; }
     /// Samples per pixel of the next render; a person's choice outlives the scene's.
     void setSamples(std::uint32_t samplesPerPixel);
     QAction* action(const QString& name) const;
@@ -67,7 +73,6 @@ class MainWindow : public QMainWindow {
     // main_window.cpp
     PanelDock* addDock(const QString& title, const QString& name, QWidget* widget);
     void addDocks();
-    void arrange();
     void readSettings();
     void writeSettings();
     void updateDockTitles();
@@ -98,12 +103,15 @@ class MainWindow : public QMainWindow {
     Toast* toast_ = nullptr;
     FileMenu* files_ = nullptr;
     ConnectPanel* connectPanel_ = nullptr;
+    Layouts* layouts_ = nullptr;
+    NotesPanel* notes_ = nullptr;
+    ShortcutPanel* shortcuts_ = nullptr;
     StatusStrip* status_ = nullptr;
     SampleBox* samples_ = nullptr;
     QToolButton* connectButton_ = nullptr;
     std::vector<std::pair<QAction*, Icon>> icons_;
     bool arranged_ = false, samplesChosen_ = false;
-    SelectionUndo undo_;
+    EditHistory history_;
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;
 };

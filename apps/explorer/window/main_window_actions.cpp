@@ -15,10 +15,12 @@
 #include "scene/surface_panel.h"
 #include "window/connect_panel.h"
 #include "window/file_menu.h"
+#include "window/layouts.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
 #include "window/sample_box.h"
 #include "window/selection_steps.h"
+#include "window/shortcut_panel.h"
 
 namespace emca::explorer {
 
@@ -28,6 +30,7 @@ QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& 
     made->setObjectName(name);
     made->setShortcut(keys);
     made->setShortcutContext(Qt::WindowShortcut);
+    made->setToolTip(keys.isEmpty() ? text : QStringLiteral("%1 (%2)").arg(text, keys.toString(QKeySequence::NativeText)));
     connect(made, &QAction::triggered, this, [run = std::move(run)] { run(); });
     menu->addAction(made);
     actions_[name] = made;
@@ -71,20 +74,26 @@ void MainWindow::addMenus() {
         else if (selection_.state().vertex) selection_.clearVertex();
         else selection_.clearPaths();
     });
-    addAction(selection, "undo", tr("Undo"), QKeySequence::Undo, [this] { undo_.undo(); });
-    addAction(selection, "redo", tr("Redo"), QKeySequence("Ctrl+Shift+Z"), [this] { undo_.redo(); });
+    addAction(selection, "undo", tr("Undo"), QKeySequence::Undo, [this] { history_.undo(); });
+    addAction(selection, "redo", tr("Redo"), QKeySequence("Ctrl+Shift+Z"), [this] { history_.redo(); });
 
     QMenu* view = menuBar()->addMenu(tr("&View"));
     addAction(view, "log", tr("Logarithmic scale"), QKeySequence("L"), [this] { toggleLog(); });
     addAction(view, "falseColor", tr("False colour"), QKeySequence("C"), [this] { views_.image->controls().toggleFalseColor(); });
     addAction(view, "nextInvalid", tr("Next NaN, infinite or negative pixel"), QKeySequence("N"), [this] { views_.image->goToNextInvalid(); });
     view->addSeparator();
-    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "history", "surfaces", "sceneOptions"})
+    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "history", "surfaces", "sceneOptions", "notes"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
     for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
-    addAction(view, "resetLayout", tr("Reset layout"), {}, [this] { resetLayout(); });
     view->addSeparator();
+    QMenu* layout = view->addMenu(tr("Layout"));
+    layouts_->addTo(*layout);
+    for (QAction* made : layout->actions())
+        if (!made->objectName().isEmpty()) actions_[made->objectName()] = made;
     addAction(view, "theme", tr("Light theme"), QKeySequence("Ctrl+T"), [this] { setTheme(theme_.isDark() ? ThemeKind::light : ThemeKind::dark); });
+
+    QMenu* help = menuBar()->addMenu(tr("&Help"));
+    addAction(help, "keys", tr("Keys and commands"), QKeySequence("F1"), [this] { shortcuts_->toggle(); });
 }
 
 void MainWindow::addToolBar() {
@@ -160,8 +169,8 @@ void MainWindow::updateActions() {
     action("reloadScene")->setEnabled(connected);
     files_->updateActions();
     for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex"}) action(name)->setEnabled(paths);
-    action("undo")->setEnabled(undo_.canUndo());
-    action("redo")->setEnabled(undo_.canRedo());
+    action("undo")->setEnabled(history_.canUndo());
+    action("redo")->setEnabled(history_.canRedo());
     connectButton_->setText(' ' + (connected ? tr("Connected") : tr("Connect…")));
 }
 

@@ -3,6 +3,7 @@
 #include "base/state_overlay.h"
 #include "emca/analysis/format.h"
 #include "image/image_view.h"
+#include "paths/filter_panel.h"
 #include "paths/path_tree.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
@@ -35,8 +36,11 @@ void MainWindow::connectSession() {
         updateActions();
     });
     connect(&session_, &SessionController::failed, this, &MainWindow::showFailure);
+    connect(views_.filter, &FilterPanel::edited, this, [this] { session_.setFilter(views_.filter->state()); });
+    connect(&history_, &EditHistory::changed, this, &MainWindow::updateActions);
     connect(&session_, &SessionController::sessionOpened, this, [this] {
-        undo_.clear();
+        if (session_.filter()) views_.filter->setState(*session_.filter());
+        history_.clear();
         updateActions();
         status_->refresh();
     });

@@ -176,6 +176,7 @@ inline Session sampleSession() {
     session.selection = {Pixel{8, 2}, {path, other}, other, VertexId{other, 5, Subpath::light}};
     session.notes = "The caustic under the glass is too bright.\nSee pixel (8, 2).";
     session.pixelNotes = {{{8, 2}, "a firefly: pdf 1e-300"}, {{0, 0}, ""}};
+    session.filter = SavedFilter{"luminance > 2 and depth < 9", {{"luminance", 0, 4, "2"}, {"v.`BSDF pdf`", 3, 15, ""}}, true, true};
     return session;
 }
 
@@ -254,6 +255,7 @@ inline std::string difference(const Session& a, const Session& b) {
         if (!same(*a.traces[i], *b.traces[i])) return "trace " + std::to_string(i);
     }
     if (a.selection != b.selection) return "selection";
+    if (a.filter != b.filter) return "filter";
     if (a.notes != b.notes || a.pixelNotes != b.pixelNotes) return "notes";
     return "";
 }

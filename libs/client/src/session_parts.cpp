@@ -75,6 +75,7 @@ std::string PartCollector::titleOf(std::size_t planned) const {
     switch (static_cast<PartKind>(part.kind)) {
         case PartKind::notes: return kNotes;
         case PartKind::selection: return "the selection";
+        case PartKind::filter: return "the filter";
         case PartKind::info: return "what the renderer said about itself";
         case PartKind::camera: return "the camera";
         case PartKind::scene: return "the scene";
@@ -142,6 +143,8 @@ void PartCollector::take(saved::Item item) {
         take(std::move(*notes));
     } else if (const auto* selection = std::get_if<saved::Selection>(&item)) {
         take(*selection);
+    } else if (auto* filter = std::get_if<saved::Filter>(&item)) {
+        take(std::move(*filter));
     } else if (const auto* image = std::get_if<saved::Image>(&item)) {
         take(*image);
     } else if (const auto* rows = std::get_if<saved::Rows>(&item)) {
@@ -157,6 +160,13 @@ void PartCollector::take(saved::Notes notes) {
     opened_.session.notes = std::move(notes.text);
     opened_.session.pixelNotes.clear();
     for (saved::PixelNote& note : notes.pixels) opened_.session.pixelNotes.push_back({note.pixel, std::move(note.text)});
+}
+
+void PartCollector::take(saved::Filter filter) {
+    SavedFilter taken{std::move(filter.query), {}, filter.byHand, filter.automatic};
+    for (saved::FilterRule& rule : filter.rules)
+        taken.rules.push_back({std::move(rule.quantity), rule.over, rule.operation, std::move(rule.value)});
+    opened_.session.filter = std::move(taken);
 }
 
 void PartCollector::take(const saved::Selection& selection) {

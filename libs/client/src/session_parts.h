@@ -45,6 +45,7 @@ class PartCollector {
     void take(protocol::saved::Item item);
     void take(protocol::saved::Notes notes);
     void take(const protocol::saved::Selection& selection);
+    void take(protocol::saved::Filter filter);
     void take(const protocol::saved::Image& image);
     void take(const protocol::saved::Rows& rows);
     void take(protocol::TraceResult result);

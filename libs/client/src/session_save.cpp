@@ -86,6 +86,7 @@ class Saver {
     void planPeoplesParts() {
         if (!session_.notes.empty() || !session_.pixelNotes.empty()) plan(PartKind::notes, "", [this] { return writeNotes(); });
         if (session_.selection != Selection::State()) plan(PartKind::selection, "", [this] { return writeSelection(); });
+        if (session_.filter) plan(PartKind::filter, "", [this] { return writeFilter(); });
     }
     void planRenderersParts() {
         if (session_.info) plan(PartKind::info, "", [this] { return add(messageOf(*session_.info)); });
@@ -133,6 +134,13 @@ class Saver {
     }
 
     Result<void> writeImage(std::size_t index) {
+    Result<void> writeFilter() {
+        const SavedFilter& from = *session_.filter;
+        saved::Filter filter{from.query, {}, from.byHand, from.automatic};
+        for (const SavedFilter::Rule& rule : from.rules) filter.rules.push_back({rule.quantity, rule.over, rule.operation, rule.value});
+        return add(std::move(filter));
+    }
+
         const ImageEntry& entry = session_.images[index];
         const Image* planes[saved::kPlanes] = {&entry.image->color, &entry.image->samples, &entry.image->variance};
         saved::Image image;

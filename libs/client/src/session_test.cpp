@@ -188,7 +188,7 @@ TEST_F(SessionFile, WhatIsNoSessionIsRefusedWithASentence) {
 TEST_F(SessionFile, TheGoldenFileOpens) {
     const std::filesystem::path golden = EMCA_SOURCE_DIR "/tests/golden/session_v1.emca";
     if (std::getenv("EMCA_WRITE_GOLDEN")) {
-        ASSERT_TRUE(saveSession(golden, sampleSession(), {}, {}, test::kSavedAt, test::kSoftware).ok());
+        ASSERT_TRUE(saveSession(golden, expected, {}, {}, test::kSavedAt, test::kSoftware).ok());
     }
     const auto opened = openSession(golden);
     ASSERT_TRUE(opened.ok()) << opened.error().message;
@@ -196,8 +196,10 @@ TEST_F(SessionFile, TheGoldenFileOpens) {
     EXPECT_TRUE(opened->notices.empty());
     EXPECT_EQ(opened->software, test::kSoftware);
     EXPECT_EQ(opened->saved, test::kSavedAt);
-    EXPECT_EQ(difference(opened->session, sampleSession()), "");
+    EXPECT_EQ(difference(opened->session, expected), "");
 }
 
 }  // namespace
 }  // namespace emca::client
+    Session expected = sampleSession();
+    expected.filter.reset();   // filters came later

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -85,6 +86,14 @@ bool decodeAs(Decoder& d, const file::Saved& root, Item& item) {
 template <typename... Tables>
 bool decodeAny(Decoder& d, const file::Saved& root, Item& item) {
     return (decodeAs<Tables>(d, root, item) || ...);
+Filter decodeItem(Decoder& d, const file::Filter& item) {
+    Filter filter{d.text(item.query()), {}, item.by_hand(), item.automatic()};
+    if (!item.rules()) return filter;
+    for (const file::FilterRule* rule : *item.rules())
+        filter.rules.push_back({d.text(rule->quantity()), rule->over(), rule->operation(), d.text(rule->value())});
+    return filter;
+}
+
 }
 
 }  // namespace
@@ -107,7 +116,7 @@ Result<Item> decode(const Frame& frame) {
     if (!root.item()) return violation("it has no content");
     Decoder decoder(frame);
     Item item;
-    const bool known = decodeAny<file::Head, file::Notes, file::Selection, file::Image, file::Rows, file::Trace>(decoder, root, item);
+    const bool known = decodeAny<file::Head, file::Notes, file::Selection, file::Image, file::Rows, file::Trace, file::Filter>(decoder, root, item);
     if (!known) item = Unknown{static_cast<std::uint8_t>(root.item_type())};
     if (decoder.failed()) return violation(decoder.fault());
     return item;

@@ -77,6 +77,17 @@ Encoded encodeItem(Builder& b, const Trace& item) {
 Encoded encodeItem(Builder&, const Unknown&) { return {file::Item::NONE, 0}; }
 
 // Upper bounds, so that nothing beyond what a frame may have is built.
+Encoded encodeItem(Builder& b, const Filter& item) {
+    std::vector<Offset<file::FilterRule>> rules;
+    for (const FilterRule& rule : item.rules) {
+        const auto quantity = text(b, rule.quantity), value = text(b, rule.value);
+        rules.push_back(file::CreateFilterRule(b, quantity, rule.over, rule.operation, value));
+    }
+    const auto list = rules.empty() ? 0 : b.CreateVector(rules);
+    const auto query = text(b, item.query);
+    return {file::Item::Filter, file::CreateFilter(b, query, list, item.byHand, item.automatic).Union()};
+}
+
 std::size_t sizeHint(const Head& item) {
     std::size_t bytes = 1024 + item.software.size();
     for (const PlannedPart& part : item.parts) bytes += 64 + part.title.size();

@@ -22,6 +22,22 @@ struct PixelNote {
     friend bool operator==(const PixelNote&, const PixelNote&) = default;
 };
 
+/// What a person asked of the paths: rules, and the query that is in force (docs/queries.md). Rules are kept as they were
+/// written, whether or not they are complete.
+struct SavedFilter {
+    struct Rule {
+        std::string quantity;
+        std::uint8_t over = 0, operation = 0;   ///< numbers of query::Quantifier and query::RuleOperator
+        std::string value;
+        friend bool operator==(const Rule&, const Rule&) = default;
+    };
+    std::string query;
+    std::vector<Rule> rules;
+    bool byHand = false;       ///< the query was edited: it is not what the rules say
+    bool automatic = false;    ///< applied to each new pixel
+    friend bool operator==(const SavedFilter&, const SavedFilter&) = default;
+};
+
 /// A value: copies share images, scene and columns, which never change. Every part may be absent.
 struct Session {
     std::optional<ServerInfo> info;
@@ -35,6 +51,7 @@ struct Session {
     Selection::State selection;
     std::string notes;                                     ///< about the whole session, in UTF-8
     std::vector<PixelNote> pixelNotes;
+    std::optional<SavedFilter> filter;                     ///< nothing: none was asked for
 };
 
 /// What the models hold, without notes. Costs no copy, except of an image that is still rendering (others write to it):

@@ -17,7 +17,7 @@
 namespace emca::protocol::saved {
 
 enum class PartKind : std::uint8_t {
-    notes = 1, selection = 2, info = 3, camera = 4, image = 5, trace = 6, scene = 7, surface = 8,
+    notes = 1, selection = 2, info = 3, camera = 4, image = 5, trace = 6, scene = 7, surface = 8, filter = 9,
 };
 
 /// Something that was saved, announced at the begin of the file, so that a file that was cut can say what is missing.
@@ -84,9 +84,22 @@ struct Trace {
 };
 
 /// Of a kind that only later versions know. Cannot be saved.
+/// What a person asked of the paths.
+struct FilterRule {
+    std::string quantity;
+    std::uint8_t over = 0, operation = 0;            ///< query::Quantifier, query::RuleOperator
+    std::string value;
+};
+struct Filter {
+    std::string query;
+    std::vector<FilterRule> rules;
+    bool byHand = false;                             ///< the query was edited: it is not what the rules say
+    bool automatic = false;                          ///< applied to each new pixel
+};
+
 struct Unknown { std::uint8_t kind = 0; };
 
-using Item = std::variant<Head, Notes, Selection, Image, Rows, Trace, Unknown>;
+using Item = std::variant<Head, Notes, Selection, Image, Rows, Trace, Filter, Unknown>;
 
 /// Errors: tooLarge, invalidArgument (Unknown).
 Result<Frame> encode(const Item& item);

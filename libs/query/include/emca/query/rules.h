@@ -13,9 +13,10 @@
 /// Rules (quantity, operator, value), for people who fill in a form: they are written as a query.
 namespace emca::query {
 
-/// Of many values of a path: for which of them a rule has to hold.
+/// Of many values of a path: for which of them a rule has to hold. Session files keep the numbers: new ones come last.
 enum class Quantifier : std::uint8_t { any, every, none, first, last };
 
+/// Session files keep the numbers: new ones come last.
 enum class RuleOperator : std::uint8_t {
     equal, notEqual, less, lessEqual, greater, greaterEqual, oneOf,
     contains, startsWith, matches,

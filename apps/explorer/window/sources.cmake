@@ -1,0 +1,48 @@
+set(EMCA_WINDOW_SOURCES
+  window/connect_panel.cpp
+  window/connect_panel.h
+  window/edit_history.cpp
+  window/edit_history.h
+  window/file_menu.cpp
+  window/file_menu.h
+  window/filter_settings.cpp
+  window/filter_settings.h
+  window/history_view.cpp
+  window/history_view.h
+  window/layout_plan.cpp
+  window/layout_plan.h
+  window/layouts.cpp
+  window/layouts.h
+  window/main_window.cpp
+  window/main_window.h
+  window/main_window_actions.cpp
+  window/main_window_states.cpp
+  window/name_panel.cpp
+  window/name_panel.h
+  window/notes_panel.cpp
+  window/notes_panel.h
+  window/notice_card.cpp
+  window/notice_card.h
+  window/panel_dock.cpp
+  window/panel_dock.h
+  window/sample_box.h
+  window/selection_steps.cpp
+  window/selection_steps.h
+  window/shortcut_panel.cpp
+  window/shortcut_panel.h
+  window/status_strip.cpp
+  window/status_strip.h
+  window/toast.cpp
+  window/toast.h
+  window/view_options.cpp
+  window/view_options.h
+  window/views.cpp
+  window/views.h
+)
+set(EMCA_WINDOW_GL_TESTS
+  window/edit_history_test.cpp
+  window/main_window_test.cpp
+  window/selection_updates_test.cpp
+  window/session_files_test.cpp
+  window/surface_layers_test.cpp
+)
