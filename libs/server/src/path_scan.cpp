@@ -16,7 +16,7 @@ namespace emca {
 namespace {
 
 /// Paths of one recording: enough that its making costs nothing, few enough that they stay in a cache.
-constexpr std::uint32_t kPathsPerBatch = 1024;
+constexpr std::uint32_t kPathsPerBatch = 512;
 /// No query takes longer on so few paths, unless somebody means harm.
 constexpr std::chrono::seconds kLongestEvaluation{30};
 
