@@ -63,6 +63,10 @@ void Dataset::addTrace(std::shared_ptr<const Trace> trace) {
     std::erase(traces_, trace);
     traces_.insert(traces_.begin(), trace);
     if (traces_.size() > kHistory) traces_.resize(kHistory);
+    std::uint64_t bytes = traces_.front()->stats.bytes;
+    std::size_t kept = 1;
+    while (kept < traces_.size() && bytes + traces_[kept]->stats.bytes <= kHistoryBytes) bytes += traces_[kept++]->stats.bytes;
+    traces_.resize(kept);
     const Transaction once(*this);
     changed(DatasetPart::traces);
     setCurrent({std::move(trace)});

@@ -78,6 +78,21 @@ TEST(Dataset, TracesAreNewestFirstAndBounded) {
     EXPECT_EQ(data.paths().pixel(0).x, Dataset::kHistory + 2);
 }
 
+TEST(Dataset, TheHistoryIsBoundedInBytesAndKeepsTheNewest) {
+    Dataset data;
+    const auto heavy = [](std::uint32_t x, std::uint64_t bytes) {
+        auto trace = std::make_shared<Trace>(*traceOf(x));
+        trace->stats.bytes = bytes;
+        return trace;
+    };
+    for (std::uint32_t i = 0; i < 4; ++i) data.addTrace(heavy(i, Dataset::kHistoryBytes / 2));
+    ASSERT_EQ(data.traces().size(), 2u);
+    EXPECT_EQ(data.traces().back()->pixels[0].x, 2u);
+    data.addTrace(heavy(9, 3 * Dataset::kHistoryBytes));
+    EXPECT_EQ(data.traces().size(), 1u) << "what was asked for last is there however large it is";
+    EXPECT_EQ(data.paths().pixel(0).x, 9u);
+}
+
 TEST(Dataset, AddTraceTellsOnce) {
     Dataset data;
     const Heard heard(data);

@@ -28,6 +28,16 @@ void dropStrayVertex(Selection::State& state) {
     if (state.vertex && (!state.currentPath || state.vertex->path != *state.currentPath)) state.vertex.reset();
 }
 
+void choosePixels(Selection::State& state) {
+    if (state.region.empty()) return;
+    if (state.region.size() == 1) {
+        state.pixel = state.region.pixels().front();
+        state.region = {};
+    } else {
+        state.pixel.reset();
+    }
+}
+
 }  // namespace
 
 bool Selection::isSelected(const PathId& path) const { return contains(state_.paths, path); }
@@ -35,7 +45,22 @@ bool Selection::isSelected(const PathId& path) const { return contains(state_.pa
 void Selection::setPixel(std::optional<Pixel> pixel) {
     State next = state_;
     next.pixel = pixel;
+    next.region = {};
     assign(std::move(next));
+}
+
+void Selection::setRegion(PixelRegion region) {
+    State next = state_;
+    next.pixel.reset();
+    next.region = std::move(region);
+    choosePixels(next);
+    assign(std::move(next));
+}
+
+void Selection::togglePixel(Pixel pixel) { setRegion(pixels().toggled(pixel)); }
+
+PixelRegion Selection::pixels() const {
+    return state_.pixel ? PixelRegion(std::vector<Pixel>{*state_.pixel}) : state_.region;
 }
 
 void Selection::setPaths(std::vector<PathId> paths) {
@@ -84,6 +109,7 @@ void Selection::clearVertex() {
 void Selection::clearPaths() { setPaths({}); }
 
 void Selection::set(State state) {
+    choosePixels(state);
     sortAndUnify(state.paths);
     if (state.currentPath && !contains(state.paths, *state.currentPath)) state.currentPath.reset();
     assign(std::move(state));
@@ -99,6 +125,7 @@ void Selection::assign(State state) {
     dropStrayVertex(state);
     std::uint32_t parts = 0;
     if (state.pixel != state_.pixel) parts |= SelectionPart::pixel;
+    if (state.region != state_.region) parts |= SelectionPart::region;
     if (state.paths != state_.paths) parts |= SelectionPart::paths;
     if (state.currentPath != state_.currentPath) parts |= SelectionPart::currentPath;
     if (state.vertex != state_.vertex) parts |= SelectionPart::vertex;

@@ -119,5 +119,34 @@ TEST(Selection, AChangeFromAListenerReachesEveryoneInTheSameOrder) {
     EXPECT_EQ(last.rounds[1], std::uint32_t(SelectionPart::paths) | SelectionPart::currentPath);
 }
 
+TEST(Selection, APixelOrARegionIsLookedAt) {
+    Selection selection;
+    selection.setPixel(kPixel);
+    selection.setPaths({path(1)});
+    Heard heard(selection);
+    selection.togglePixel({5, 4});
+    EXPECT_FALSE(selection.state().pixel);
+    EXPECT_EQ(selection.state().region, PixelRegion(std::vector<Pixel>{kPixel, {5, 4}}));
+    EXPECT_EQ(selection.state().paths.size(), 1u) << "the paths are of a pixel that is still looked at";
+    EXPECT_EQ(heard.rounds, (std::vector<std::uint32_t>{SelectionPart::pixel | SelectionPart::region}));
+    selection.togglePixel(kPixel);
+    EXPECT_EQ(selection.state().pixel, (Pixel{5, 4}));
+    EXPECT_TRUE(selection.state().region.empty());
+    selection.togglePixel({5, 4});
+    EXPECT_EQ(selection.pixels(), PixelRegion());
+    selection.setRegion(PixelRegion(PixelRect{1, 1, 9, 9}));
+    EXPECT_EQ(selection.pixels().size(), 64u);
+    heard.rounds.clear();
+    selection.setRegion(PixelRegion(PixelRect{1, 1, 9, 9}));
+    EXPECT_TRUE(heard.rounds.empty()) << "the same region is no news";
+    selection.setPixel(kPixel);
+    EXPECT_TRUE(selection.state().region.empty());
+    Selection::State both;
+    both.pixel = kPixel;
+    both.region = PixelRegion(PixelRect{0, 0, 2, 1});
+    selection.set(both);
+    EXPECT_FALSE(selection.state().pixel);
+}
+
 }  // namespace
 }  // namespace emca::client

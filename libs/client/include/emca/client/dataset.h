@@ -45,9 +45,11 @@ class Dataset {
     const ImageEntry* currentImage() const;   ///< null if none
     std::size_t currentImageIndex() const { return currentImage_; }
 
-    /// All pixels traced so far, newest first: the pixel history. At most `kHistory`.
+    /// What was traced so far, pixels and regions, newest first: the pixel history. At most `kHistory`; and the oldest go
+    /// where all together hold more than `kHistoryBytes` of recorded data (RecordingStats::bytes).
     const std::vector<std::shared_ptr<const Trace>>& traces() const { return traces_; }
     static constexpr std::size_t kHistory = 64;
+    static constexpr std::uint64_t kHistoryBytes = std::uint64_t(1) << 30;
     /// The traces that the views show; usually one, several for a region or chosen pixels together.
     const std::vector<std::shared_ptr<const Trace>>& current() const { return current_; }
     /// Their paths in one set: what every path view shows. Empty if nothing is traced.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "emca/client/pixel_region.h"
 #include "emca/core/event.h"
 #include "emca/core/pixel.h"
 
@@ -29,12 +30,12 @@ struct VertexId {
 };
 
 /// Parts of a Selection, as bits.
-struct SelectionPart { enum : std::uint32_t { pixel = 1, paths = 2, currentPath = 4, vertex = 8, hover = 16 }; };
+struct SelectionPart { enum : std::uint32_t { pixel = 1, paths = 2, currentPath = 4, vertex = 8, hover = 16, region = 32 }; };
 
 /// What a person looks at: identifiers only, so that it survives a new trace of the same pixel. The one model beside
 /// Dataset that all views read and write. Not thread-safe: it belongs to the thread that shows it.
 ///
-/// Rules: `paths` is sorted and without duplicates, of one or several pixels; the current path is one of `paths` or
+/// Rules: there is a pixel or a region of two pixels or more, never both; `paths` is sorted and without duplicates, of one or several pixels; the current path is one of `paths` or
 /// none; the current vertex lies on the current path or there is none.
 class Selection {
   public:
@@ -43,6 +44,7 @@ class Selection {
         std::vector<PathId> paths;              ///< selected paths
         std::optional<PathId> currentPath;
         std::optional<VertexId> vertex;
+        PixelRegion region;                     ///< pixels looked at together; a single one is `pixel`
         friend bool operator==(const State&, const State&) = default;
     };
     using Listener = std::function<void(std::uint32_t parts)>;
@@ -53,14 +55,19 @@ class Selection {
     const std::optional<VertexId>& hovered() const { return hovered_; }  ///< under the cursor, in any view
 
     /// Any of these tells each listener at most once, and not at all if nothing changed.
-    void setPixel(std::optional<Pixel> pixel);
+    void setPixel(std::optional<Pixel> pixel);       ///< ends a region
+    void setRegion(PixelRegion region);              ///< ends `pixel`; of one pixel: setPixel, of none: nothing is looked at
+    /// Adds the pixel to what is looked at, or takes it away: one pixel and another are a region of two.
+    void togglePixel(Pixel pixel);
+    /// The region, or the pixel as a region of one.
+    PixelRegion pixels() const;
     void setPaths(std::vector<PathId> paths);        ///< current path: kept if among them, else the only one, else none
     void togglePath(const PathId& path);
     void setCurrentPath(const PathId& path);         ///< adds it to `paths` if it is not among them
     void setVertex(const VertexId& vertex);          ///< its path becomes current
     void clearVertex();
     void clearPaths();
-    /// Made to obey the rules: a current path that is not among `paths` is dropped, so is a vertex off the current path.
+    /// Made to obey the rules: a region of one pixel becomes `pixel`, a larger one takes its place; a current path that is not among `paths` is dropped, so is a vertex off the current path.
     void set(State state);
     void setHovered(std::optional<VertexId> vertex);
 
