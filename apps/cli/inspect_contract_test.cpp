@@ -168,6 +168,16 @@ TEST_F(Inspects, StatsOfAnImage) {
     EXPECT_EQ(stats["faults"][0]["fault"], "NaN");
     EXPECT_NE(run({"stats", "a.exr"}).out.find("2 faulty pixels: (1, 2) NaN, (2, 2) infinite"), std::string::npos);
     EXPECT_EQ(lines(run({"stats", "a.exr", "--csv"}).out), 5u);
+    const Json part = json({"stats", "a.exr", "--rect", "1,1,4,3", "--json"});
+    EXPECT_EQ(part["rect"].dump(), "[1,1,4,3]");
+    EXPECT_EQ(part["channels"][0]["finite"], 4);
+    EXPECT_EQ(part["channels"][1]["median"], 0.5);
+    EXPECT_EQ(part["channels"][1]["max"], 2.0);
+    EXPECT_EQ(json({"stats", "a.exr", "--rect", "0,0,4,2", "--json"})["faultyPixels"], 0);
+    EXPECT_NE(run({"stats", "a.exr", "--rect", "1,1,4,3"}).out.find("of them 3 x 2 at (1, 1)"), std::string::npos);
+    EXPECT_EQ(run({"stats", "a.exr", "--rect", "1,1,5,3"}).code, 3);
+    EXPECT_EQ(run({"stats", "a.exr", "--rect", "1,1,1,3"}).code, 2);
+    EXPECT_EQ(run({"stats", "127.0.0.1:1", "1", "1", "--rect", "0,0,1,1"}).code, 2);
 }
 
 TEST_F(Inspects, DiffByEveryMetric) {

@@ -15,6 +15,7 @@
 #include "query_rows.h"
 #include "settings_options.h"
 #include "table.h"
+#include "traced.h"
 
 namespace emca::cli {
 namespace {
@@ -25,7 +26,7 @@ using analysis::PathQuantity;
 
 struct StatsArguments {
     OnePixelArguments pixel;  // the address is an image's name if there is no X
-    std::string table;
+    std::string table, rect;
     bool json = false, csv = false;
 };
 
@@ -206,10 +207,17 @@ int runStats(const StatsArguments& arguments) {
             if (!option->empty())
                 return failUsage(
                     "An image has no paths: --table, --where and the renderer's settings need HOST:PORT X Y.");
-        return printImageStats(pixel.source, arguments.json  ? StatsFormat::json
+        PixelRect rect;
+        if (!arguments.rect.empty()) {
+            const Result<PixelRect> parsed = parseRect(arguments.rect);
+            if (!parsed) return failUsage(parsed.error().message);
+            rect = *parsed;
+        }
+        return printImageStats(pixel.source, rect, arguments.json  ? StatsFormat::json
                                               : arguments.csv ? StatsFormat::csv
                                                               : StatsFormat::text);
     }
+    if (!arguments.rect.empty()) return failUsage("--rect is about an image: emca stats IMAGE --rect X0,Y0,X1,Y1.");
     return arguments.table.empty() ? runSummary(arguments) : runTable(arguments);
 }
 
@@ -228,13 +236,14 @@ void addStatsCommand(CLI::App& app, Run& run) {
     command
         ->add_option("--where", arguments->pixel.where, "of the paths for which a condition is true (docs/queries.md)")
         ->type_name("QUERY");
+    command->add_option("--rect", arguments->rect, "a part of the image (default: all of it)")->type_name("X0,Y0,X1,Y1");
     addSettingsOptions(*command, arguments->pixel.settings);
     CLI::Option* json = command->add_flag("--json", arguments->json, "for scripts");
     command->add_flag("--csv", arguments->csv, "comma-separated values")->excludes(json);
     command->footer(
         "Examples:\n  emca stats localhost:50013 117 64\n"
         "  emca stats localhost:50013 117 64 --table 'count(), mean(luminance) group by depth'\n"
-        "  emca stats cornell.exr --csv");
+        "  emca stats cornell.exr --rect 12,30,20,38");
     command->callback([arguments, &run] { run = [arguments] { return runStats(*arguments); }; });
 }
 

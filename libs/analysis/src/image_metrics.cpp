@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "emca/analysis/flip.h"
 
@@ -110,16 +111,50 @@ std::vector<float> regionValues(const Image& image, ChannelChoice channel, Pixel
     return values;
 }
 
-std::vector<ChannelStatistics> imageStatistics(const Image& image, PixelRect rect) {
+std::vector<float> regionValues(const Image& image, ChannelChoice channel, std::span<const Pixel> pixels) {
+    std::vector<float> values;
+    values.reserve(pixels.size());
+    for (const Pixel p : pixels)
+        if (image.contains(p)) values.push_back(scalar(image, p, channel));
+    return values;
+}
+
+namespace {
+
+/// By selection instead of sorting: a region may be a whole image. Type 7 of Hyndman and Fan, as quantile().
+double medianOfFinite(std::vector<float>& values) {
+    const auto end = std::partition(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+    const auto count = end - values.begin();
+    if (count == 0) return 0;
+    const auto middle = values.begin() + count / 2;
+    std::nth_element(values.begin(), middle, end);
+    if (count % 2 == 1) return static_cast<double>(*middle);
+    return std::midpoint(static_cast<double>(*std::max_element(values.begin(), middle)), static_cast<double>(*middle));
+}
+
+/// \param valuesOf  the values of a channel of the region
+template <typename Values>
+std::vector<ChannelStatistics> statisticsOf(const Image& image, const Values& valuesOf) {
     std::vector<ChannelStatistics> result;
     const auto add = [&](const std::string& channel, int index) {
-        const std::vector<float> values = regionValues(image, {index}, rect);
+        std::vector<float> values = valuesOf(ChannelChoice{index});
         const auto negative = std::count_if(values.begin(), values.end(), [](float v) { return v < 0; });
-        result.push_back({channel, summarize(std::span<const float>(values)), static_cast<std::size_t>(negative)});
+        const Summary summary = summarize(std::span<const float>(values));
+        result.push_back({channel, summary, static_cast<std::size_t>(negative), medianOfFinite(values)});
     };
     for (std::uint32_t c = 0; c < image.channelCount(); ++c) add(image.channels()[c], static_cast<int>(c));
     if (image.channelCount() >= 3) add("luminance", ChannelChoice::kLuminance);
     return result;
+}
+
+}  // namespace
+
+std::vector<ChannelStatistics> imageStatistics(const Image& image, PixelRect rect) {
+    return statisticsOf(image, [&](ChannelChoice channel) { return regionValues(image, channel, rect); });
+}
+
+std::vector<ChannelStatistics> imageStatistics(const Image& image, std::span<const Pixel> pixels) {
+    return statisticsOf(image, [&](ChannelChoice channel) { return regionValues(image, channel, pixels); });
 }
 
 std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum) {

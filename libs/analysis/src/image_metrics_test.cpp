@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace emca::analysis {
 namespace {
@@ -92,6 +94,50 @@ TEST(ImageStatistics, CountsFaultsPerChannelAndRegion) {
     EXPECT_EQ(part[0].summary.count, 6u);
     EXPECT_EQ(part[0].summary.nan, 0u);
     EXPECT_EQ(regionValues(image, {2}, {9, 9, 12, 12}).size(), 0u);
+}
+
+TEST(ImageStatistics, OfChosenPixelsAreThoseOfTheSameValues) {
+    std::mt19937 random(11);
+    std::lognormal_distribution<float> radiance(0, 2);
+    Image image(13, 9, {"R", "G", "B", "A"});
+    for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = radiance(random) - 0.5f;
+    image.at({3, 3})[1] = kNaN;
+    image.at({4, 3})[1] = -kInf;
+    for (const std::size_t count : {0u, 1u, 2u, 7u, 64u, 117u}) {
+        std::vector<Pixel> pixels;
+        for (std::uint32_t y = 0; y < 9; ++y)
+            for (std::uint32_t x = 0; x < 13; ++x) pixels.push_back({x, y});
+        std::shuffle(pixels.begin(), pixels.end(), random);
+        pixels.resize(count);
+        std::vector<Pixel> asked = pixels;
+        asked.push_back({99, 1});
+        const auto found = imageStatistics(image, asked);
+        ASSERT_EQ(found.size(), 5u);
+        for (int c = 0; c < 4; ++c) {
+            // Brute force: all the values, sorted.
+            std::vector<double> values;
+            std::size_t negative = 0;
+            for (const Pixel p : pixels) {
+                values.push_back(double(image.at(p)[c]));
+                negative += values.back() < 0;
+            }
+            const ChannelStatistics& s = found[std::size_t(c)];
+            const std::vector<double> sorted = sortedFinite(values);
+            EXPECT_EQ(s.summary.count, count);
+            EXPECT_EQ(s.summary.finite, sorted.size());
+            EXPECT_EQ(s.negative, negative);
+            if (sorted.empty()) continue;
+            EXPECT_DOUBLE_EQ(s.median, quantile(sorted, 0.5));
+            EXPECT_EQ(s.summary.min, sorted.front());
+            EXPECT_EQ(s.summary.max, sorted.back());
+        }
+    }
+    const std::vector<Pixel> corner{{1, 1}, {2, 1}, {1, 2}, {2, 2}};
+    const auto listed = imageStatistics(image, corner), cut = imageStatistics(image, PixelRect{1, 1, 3, 3});
+    for (std::size_t c = 0; c < 5; ++c) {
+        EXPECT_EQ(listed[c].summary.mean, cut[c].summary.mean);
+        EXPECT_EQ(listed[c].median, cut[c].median);
+    }
 }
 
 TEST(FaultyPixels, InReadingOrderWorstFaultEach) {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -49,10 +51,13 @@ struct ChannelStatistics {
     std::string channel;
     Summary summary;
     std::size_t negative = 0;
+    double median = 0;         ///< of the finite values; 0 if there is none
 };
 /// Per channel, and "luminance" last if there are at least three.
 /// \param rect  clipped to the image; empty: the whole image
 std::vector<ChannelStatistics> imageStatistics(const Image& image, PixelRect rect = {});
+/// Of these pixels; those outside the image count for nothing.
+std::vector<ChannelStatistics> imageStatistics(const Image& image, std::span<const Pixel> pixels);
 
 /// Pixels with at least one NaN, infinite or negative channel, in reading order, at most `maximum`.
 enum class PixelFault : std::uint8_t { nan = 0, infinite = 1, negative = 2 };
@@ -62,5 +67,7 @@ std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum = 
 /// Values of a region as one series, for histograms and ranges.
 /// \param rect  clipped to the image; empty: the whole image
 std::vector<float> regionValues(const Image& image, ChannelChoice channel, PixelRect rect = {});
+/// \param pixels  those outside the image are left out
+std::vector<float> regionValues(const Image& image, ChannelChoice channel, std::span<const Pixel> pixels);
 
 }  // namespace emca::analysis
