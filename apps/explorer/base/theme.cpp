@@ -87,7 +87,7 @@ ThemeColors darkColors() {
     c.mesh = "#b9b4ac";
     c.meshBack = "#8a93a3";
     c.text = "#dfe1e5";
-    c.mutedText = "#9da0a8";
+    c.mutedText = "#abaeb6";
     c.accent = "#5b9bf8";
     c.onAccent = "#101418";
     c.selectedRow = "#33425a";
@@ -103,9 +103,9 @@ ThemeColors darkColors() {
     c.hover = "#fdf6e3";
     c.halo = "#0c0d0e";
     c.axisX = "#e5686a";
-    c.axisY = "#7cb95c";
+    c.axisY = "#8fd06a";
     c.axisZ = "#5c92e0";
-    c.red = "#f0686a";
+    c.red = "#e8496a";
     c.green = "#5fbf77";
     c.blue = "#5f9df5";
     c.alpha = "#b9bcc4";
@@ -127,7 +127,7 @@ ThemeColors lightColors() {
     c.mesh = "#bdb8b0";
     c.meshBack = "#9aa6b8";
     c.text = "#1f2328";
-    c.mutedText = "#636a74";
+    c.mutedText = "#5c636d";
     c.accent = "#2464d1";
     c.onAccent = "#ffffff";
     c.selectedRow = "#d6e4fb";
@@ -142,10 +142,10 @@ ThemeColors lightColors() {
     c.selected = "#d95700";
     c.hover = "#7a5cff";
     c.halo = "#ffffff";
-    c.axisX = "#c8393c";
+    c.axisX = "#98152a";
     c.axisY = "#4c8a2b";
     c.axisZ = "#2f65c0";
-    c.red = "#cf3b3b";
+    c.red = "#a3122b";
     c.green = "#1f8f45";
     c.blue = "#2a67d6";
     c.alpha = "#6b7280";
