@@ -173,6 +173,7 @@ void PartCollector::take(const saved::Selection& selection) {
     const auto id = [](const saved::PathId& path) { return PathId{path.pixel, path.sample, path.part}; };
     Selection::State state;
     state.pixel = selection.pixel;
+    state.region = PixelRegion(selection.region);
     for (const saved::PathId& path : selection.paths) state.paths.push_back(id(path));
     if (selection.currentPath) state.currentPath = id(*selection.currentPath);
     if (const auto& v = selection.vertex) state.vertex = VertexId{id(v->path), v->depth, static_cast<Subpath>(v->subpath)};

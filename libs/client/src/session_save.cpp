@@ -127,13 +127,13 @@ class Saver {
         const Selection::State& state = session_.selection;
         saved::Selection selection;
         selection.pixel = state.pixel;
+        selection.region.assign(state.region.pixels().begin(), state.region.pixels().end());
         for (const PathId& path : state.paths) selection.paths.push_back(id(path));
         if (state.currentPath) selection.currentPath = id(*state.currentPath);
         if (state.vertex) selection.vertex = {id(state.vertex->path), state.vertex->depth, static_cast<std::uint8_t>(state.vertex->subpath)};
         return add(std::move(selection));
     }
 
-    Result<void> writeImage(std::size_t index) {
     Result<void> writeFilter() {
         const SavedFilter& from = *session_.filter;
         saved::Filter filter{from.query, {}, from.byHand, from.automatic};
@@ -141,6 +141,7 @@ class Saver {
         return add(std::move(filter));
     }
 
+    Result<void> writeImage(std::size_t index) {
         const ImageEntry& entry = session_.images[index];
         const Image* planes[saved::kPlanes] = {&entry.image->color, &entry.image->samples, &entry.image->variance};
         saved::Image image;

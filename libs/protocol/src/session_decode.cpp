@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "decoder.h"
@@ -42,6 +43,14 @@ Selection decodeItem(Decoder& d, const file::Selection& item) {
         const auto* paths = d.aligned<file::PathId>(list->Data());
         for (std::uint32_t i = 0; paths && i < list->size(); ++i) selection.paths.push_back(fromFile(paths[i]));
     }
+    if (const auto* list = item.region(); list && list->size() > 0) {
+        const auto* pixels = d.aligned<wire::Pixel>(list->Data());
+        for (std::uint32_t i = 0; pixels && i < list->size(); ++i) {
+            selection.region.push_back(fromWire(pixels[i]));
+            // Behind the last pixel there is always another number.
+            if (std::max(pixels[i].x(), pixels[i].y()) == std::numeric_limits<std::uint32_t>::max()) d.fail("there is no such pixel");
+        }
+    }
     if (const auto* path = d.aligned<file::PathId>(item.current_path())) selection.currentPath = fromFile(*path);
     if (const auto* v = d.aligned<file::VertexId>(item.vertex())) {
         selection.vertex = {fromFile(v->path()), v->depth(), v->subpath()};
@@ -77,6 +86,14 @@ Rows decodeItem(Decoder& d, const file::Rows& item) {
 
 Trace decodeItem(Decoder&, const file::Trace& item) { return {item.total_seconds(), item.shown()}; }
 
+Filter decodeItem(Decoder& d, const file::Filter& item) {
+    Filter filter{d.text(item.query()), {}, item.by_hand(), item.automatic()};
+    if (!item.rules()) return filter;
+    for (const file::FilterRule* rule : *item.rules())
+        filter.rules.push_back({d.text(rule->quantity()), rule->over(), rule->operation(), d.text(rule->value())});
+    return filter;
+}
+
 template <typename Table>
 bool decodeAs(Decoder& d, const file::Saved& root, Item& item) {
     if (root.item_type() != file::ItemTraits<Table>::enum_value) return false;
@@ -86,14 +103,6 @@ bool decodeAs(Decoder& d, const file::Saved& root, Item& item) {
 template <typename... Tables>
 bool decodeAny(Decoder& d, const file::Saved& root, Item& item) {
     return (decodeAs<Tables>(d, root, item) || ...);
-Filter decodeItem(Decoder& d, const file::Filter& item) {
-    Filter filter{d.text(item.query()), {}, item.by_hand(), item.automatic()};
-    if (!item.rules()) return filter;
-    for (const file::FilterRule* rule : *item.rules())
-        filter.rules.push_back({d.text(rule->quantity()), rule->over(), rule->operation(), d.text(rule->value())});
-    return filter;
-}
-
 }
 
 }  // namespace

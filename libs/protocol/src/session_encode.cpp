@@ -44,12 +44,15 @@ Encoded encodeItem(Builder& b, const Selection& item) {
     paths.reserve(item.paths.size());
     for (const PathId& path : item.paths) paths.push_back(toFile(path));
     const auto list = paths.empty() ? 0 : b.CreateVectorOfStructs(paths);
+    const auto region = item.region.empty() ? 0 : b.CreateVectorOfStructs<wire::Pixel>(item.region.size(), [&](std::size_t i, wire::Pixel* out) {
+        *out = toWire(item.region[i]);
+    });
     const auto pixel = toWire(item.pixel.value_or(Pixel{}));
     const auto current = toFile(item.currentPath.value_or(PathId{}));
     const VertexId v = item.vertex.value_or(VertexId{});
     const file::VertexId vertex(toFile(v.path), v.depth, v.subpath);
     return {file::Item::Selection, file::CreateSelection(b, item.pixel ? &pixel : nullptr, list, item.currentPath ? &current : nullptr,
-                                                         item.vertex ? &vertex : nullptr).Union()};
+                                                         item.vertex ? &vertex : nullptr, region).Union()};
 }
 
 Offset<file::Plane> encodePlane(Builder& b, const Plane& plane) {
@@ -74,9 +77,6 @@ Encoded encodeItem(Builder& b, const Trace& item) {
     return {file::Item::Trace, file::CreateTrace(b, item.totalSeconds, item.shown).Union()};
 }
 
-Encoded encodeItem(Builder&, const Unknown&) { return {file::Item::NONE, 0}; }
-
-// Upper bounds, so that nothing beyond what a frame may have is built.
 Encoded encodeItem(Builder& b, const Filter& item) {
     std::vector<Offset<file::FilterRule>> rules;
     for (const FilterRule& rule : item.rules) {
@@ -88,6 +88,9 @@ Encoded encodeItem(Builder& b, const Filter& item) {
     return {file::Item::Filter, file::CreateFilter(b, query, list, item.byHand, item.automatic).Union()};
 }
 
+Encoded encodeItem(Builder&, const Unknown&) { return {file::Item::NONE, 0}; }
+
+// Upper bounds, so that nothing beyond what a frame may have is built.
 std::size_t sizeHint(const Head& item) {
     std::size_t bytes = 1024 + item.software.size();
     for (const PlannedPart& part : item.parts) bytes += 64 + part.title.size();
@@ -98,7 +101,12 @@ std::size_t sizeHint(const Notes& item) {
     for (const PixelNote& note : item.pixels) bytes += 64 + note.text.size();
     return bytes;
 }
-std::size_t sizeHint(const Selection& item) { return 1024 + item.paths.size() * sizeof(file::PathId); }
+std::size_t sizeHint(const Selection& item) { return 1024 + item.paths.size() * sizeof(file::PathId) + item.region.size() * sizeof(wire::Pixel); }
+std::size_t sizeHint(const Filter& item) {
+    std::size_t bytes = 1024 + item.query.size();
+    for (const FilterRule& rule : item.rules) bytes += 96 + rule.quantity.size() + rule.value.size();
+    return bytes;
+}
 std::size_t sizeHint(const Rows& item) { return 1024 + item.values.size() * sizeof(float); }
 template <typename T>
 std::size_t sizeHint(const T&) { return 4096; }

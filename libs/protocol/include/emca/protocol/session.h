@@ -55,6 +55,7 @@ struct Selection {
     std::vector<PathId> paths;
     std::optional<PathId> currentPath;
     std::optional<VertexId> vertex;
+    std::vector<Pixel> region;                       ///< pixels looked at together; empty if there is one or none
 };
 
 /// One of the three images of a render; empty if its width is 0.
@@ -83,7 +84,6 @@ struct Trace {
     std::uint32_t shown = 0;                         ///< position among the traces that views show, from 1; 0: not shown
 };
 
-/// Of a kind that only later versions know. Cannot be saved.
 /// What a person asked of the paths.
 struct FilterRule {
     std::string quantity;
@@ -97,6 +97,7 @@ struct Filter {
     bool automatic = false;                          ///< applied to each new pixel
 };
 
+/// Of a kind that only later versions know. Cannot be saved.
 struct Unknown { std::uint8_t kind = 0; };
 
 using Item = std::variant<Head, Notes, Selection, Image, Rows, Trace, Filter, Unknown>;
