@@ -107,6 +107,7 @@ class SessionController : public QObject {
     void activityChanged();
     void renderFinished();
     void traceFinished();
+    void notesChanged();
     void imageOpened(const QString& file);
     void imageSaved(const QString& file);
     /// \param complete  every part of the file was read
@@ -115,7 +116,6 @@ class SessionController : public QObject {
     void sessionSaveEnded(const QString& file, bool saved);
     void failed(emca::explorer::FailedTask task, const QString& sentence);
 
-    void notesChanged();
   private:
     struct Opened;
     void open();
@@ -169,6 +169,7 @@ class SessionController : public QObject {
     std::weak_ptr<const RenderedImage> automaticImage_;
     std::string notes_;
     std::vector<client::PixelNote> pixelNotes_;
+    std::optional<client::SavedFilter> filter_;
     bool showing_ = false;              ///< a session comes: its selection asks for no traces
     std::optional<Pixel> tracing_;
     QTimer progress_;
@@ -182,7 +183,6 @@ class SessionController : public QObject {
     };
     std::deque<Known> known_;
 
-    std::optional<client::SavedFilter> filter_;
     Workers workers_;
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;

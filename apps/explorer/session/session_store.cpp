@@ -96,17 +96,17 @@ void SessionController::showSession(client::Session session) {
         for (client::ImageEntry& entry : session.images) entry.renderId = 0;
     notes_ = std::move(session.notes);
     pixelNotes_ = std::move(session.pixelNotes);
-    renderCount_ = std::max(renderCount_, static_cast<int>(session.images.size()));
     std::erase_if(pixelNotes_, [](const client::PixelNote& note) { return note.text.empty(); });
     std::ranges::stable_sort(pixelNotes_, byRow, &client::PixelNote::pixel);
     filter_ = std::move(session.filter);
+    renderCount_ = std::max(renderCount_, static_cast<int>(session.images.size()));
     lastRequest_.clear();
     {
         const QScopedValueRollback<bool> quiet(showing_, true);
         client::show(session, dataset_, selection_);
     }
-    if (!stays) return;
     emit notesChanged();
+    if (!stays) return;
     if (!session.meshes) loadScene();
     if (session.shown.empty()) ensureTraced(true);
 }
@@ -116,8 +116,8 @@ void SessionController::saveSession(const QString& file) {
     client::Session session = client::sessionOf(dataset_, selection_);
     session.notes = notes_;
     session.pixelNotes = pixelNotes_;
-    // Layers without the scene they lie on cannot be kept: it is still on its way, as they were.
     session.filter = filter_;
+    // Layers without the scene they lie on cannot be kept: it is still on its way, as they were.
     if (!session.meshes) session.surface = nullptr;
     auto activity = std::make_shared<Activity>();
     saving_ = activity;
