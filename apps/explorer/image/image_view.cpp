@@ -23,6 +23,7 @@
 #include "emca/analysis/statistics.h"
 #include "image/image_canvas.h"
 #include "image/image_controls.h"
+#include "image/region_tool.h"
 
 namespace emca::explorer {
 namespace {
@@ -52,7 +53,7 @@ QString zoomText(double zoom) {
 
 ImageView::ImageView(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
     : QWidget(parent), dataset_(dataset), selection_(selection), theme_(theme),
-      canvas_(new ImageCanvas(pixels_, theme)), bar_(new ColorBar(theme)), controls_(new ImageControls(theme)),
+      canvas_(new ImageCanvas(pixels_, theme)), region_(new RegionTool(dataset, *canvas_, selection, theme)), bar_(new ColorBar(theme)), controls_(new ImageControls(theme)),
       overlay_(nullptr),
       datasetListening_(dataset, [this](std::uint32_t parts) { datasetChanged(parts); }),
       selectionListening_(selection, [this](std::uint32_t parts) {
@@ -288,6 +289,13 @@ void ImageView::pixelMenu(Pixel pixel, QPoint global) {
                 else selection_.setPixel(pixel);
             });
     connect(menu.addAction(tr("Zoom to it")), &QAction::triggered, this, [this, pixel] { canvas_->focusOn(pixel); });
+    if (const client::PixelRegion& region = selection_.state().region; !region.empty()) {
+        menu.addSeparator();
+        connect(menu.addAction(region.contains(pixel) ? tr("Take this pixel out of the region") : tr("Add this pixel to the region")),
+                &QAction::triggered, this, [this, pixel] { selection_.togglePixel(pixel); });
+        connect(menu.addAction(tr("Trace the region again")), &QAction::triggered, this, [this] { emit traceAgainWanted(); });
+        connect(menu.addAction(tr("Clear the region")), &QAction::triggered, this, [this] { selection_.setRegion({}); });
+    }
     menu.addSeparator();
     connect(menu.addAction(tr("Copy values")), &QAction::triggered, this,
             [this, pixel] { QApplication::clipboard()->setText(describe(pixel)); });

@@ -14,6 +14,7 @@ namespace emca::explorer {
 class ColorBar;
 class ImageCanvas;
 class ImageControls;
+class RegionTool;
 class StateOverlay;
 class Theme;
 
@@ -27,6 +28,8 @@ class ImageView : public QWidget {
     ImageCanvas& canvas() { return *canvas_; }
     ImageControls& controls() { return *controls_; }
     const ImagePixels& pixels() const { return pixels_; }
+    /// Several pixels together: rectangles, Ctrl and clicks.
+    RegionTool& regionTool() { return *region_; }
     /// For what the window has to say while there is no image, or above it.
     StateOverlay& overlay() { return *overlay_; }
     /// Everything that is known of a pixel, as the line below the picture and the clipboard have it.
@@ -61,6 +64,7 @@ class ImageView : public QWidget {
     Theme& theme_;
     ImagePixels pixels_;
     ImageCanvas* canvas_;
+    RegionTool* region_;
     ColorBar* bar_;
     ImageControls* controls_;
     QComboBox* images_ = nullptr;

@@ -9,8 +9,21 @@ set(EMCA_IMAGE_SOURCES
   image/image_transform.h
   image/image_view.cpp
   image/image_view.h
+  image/region_histogram.cpp
+  image/region_histogram.h
+  image/region_numbers.cpp
+  image/region_numbers.h
+  image/region_outline.cpp
+  image/region_outline.h
+  image/region_panel.cpp
+  image/region_panel.h
+  image/region_tool.cpp
+  image/region_tool.h
 )
 set(EMCA_IMAGE_TESTS
   image/image_transform_test.cpp
   image/image_view_test.cpp
+  image/region_outline_test.cpp
+  image/region_panel_test.cpp
+  image/region_tool_test.cpp
 )
