@@ -4,14 +4,12 @@
 #include <cstdlib>
 
 #include "emca/query/vocabulary.h"
-#include "syntax.h"
+#include "operand.h"
 
 namespace emca::query {
 namespace {
 
-using detail::Kind;
-using detail::Node;
-using detail::Op;
+using detail::operand;
 
 bool isBlank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }
 
@@ -19,22 +17,6 @@ bool isNumber(const std::string& text) {
     char* end = nullptr;
     std::strtod(text.c_str(), &end);
     return !isBlank(text) && isBlank(end);
-}
-
-/// Whether an operator of a node binds as weakly as a comparison, or weaker.
-bool bindsWeakly(const Node& node) {
-    if (node.kind != Kind::operation) return false;
-    return (node.op >= Op::less && node.op <= Op::in) || node.op == Op::invert;
-}
-
-/// An expression as it may stand beside a comparison.
-Result<std::string> operand(std::string_view text) {
-    while (!text.empty() && isBlank(text.substr(0, 1))) text.remove_prefix(1);
-    while (!text.empty() && isBlank(text.substr(text.size() - 1))) text.remove_suffix(1);
-    Node root;
-    QueryError error;
-    if (!detail::parseExpression(text, root, error)) return toError(text, error);
-    return bindsWeakly(root) ? "(" + std::string(text) + ")" : std::string(text);
 }
 
 std::vector<std::string> listed(std::string_view values) {
