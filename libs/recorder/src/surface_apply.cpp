@@ -173,17 +173,18 @@ void SurfaceStore::descendAll(Lane* lanes, std::uint32_t count) const {
         for (std::uint32_t k = 0; k < left; ++k) {
             Lane& lane = lanes[active[k]];
             const SurfaceRef ref = *lane.slot;
-            const std::uint32_t which = firstChild(lane.path);
-            lane.path = below(lane.path);
-            if (ref.kind() == SurfaceRef::inner) {
-                lane.slot = ref.children() + which;
-                __builtin_prefetch(lane.slot);
-                active[still++] = active[k];
-            } else {
-                lane.node = ref.end(which, nodeBytes_);
+            if (ref.ends()) [[likely]] {
+                lane.node = ref.end(firstChild(lane.path), nodeBytes_);
                 for (std::size_t line = 0; line < nodeBytes_; line += 64)
                     prefetchForWriting(reinterpret_cast<std::byte*>(lane.node) + line);
+                continue;
             }
+            const bool jumps = ref.kind() == SurfaceRef::table;
+            const std::uint32_t levels = jumps ? ref.levels() : 1;
+            lane.slot = (jumps ? ref.entries() : ref.children()) + (lane.path >> (32 - 2 * levels));
+            lane.path <<= 2 * levels;
+            __builtin_prefetch(lane.slot);
+            active[still++] = active[k];
         }
         left = still;
     }

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "emca/core/surface_tree.h"
 #include "surface_store.h"
@@ -15,6 +16,7 @@ void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, const std::uin
     const std::uint32_t face = record[0];
     std::uint32_t path = record[1], level = 0;
     SurfaceRef* slot = slotOf(face);
+    assert(slot->kind() != SurfaceRef::table);  // triangles divide at once or have tables
     for (; slot->kind() == SurfaceRef::inner; path = below(path), ++level) slot = slot->children() + firstChild(path);
     const std::uint32_t which = firstChild(path);
     level += slot->kind() == SurfaceRef::leaves;
@@ -62,9 +64,49 @@ void SurfaceStore::divideAll(double part) {
         const std::uint64_t end = std::min((page + 1) << pageBits_, faceCount_);
         for (std::uint64_t face = page << pageBits_; face < end; ++face) {
             SurfaceRef* slot = slotOf(static_cast<std::uint32_t>(face));
-            if (*slot) divideBelow(*slot, static_cast<std::uint32_t>(face), 0, 0, growth);
+            if (!*slot) continue;
+            *slot = slot->tree();
+            divideBelow(*slot, static_cast<std::uint32_t>(face), 0, 0, growth);
+            makeTable(shards_[shardOf(static_cast<std::uint32_t>(face))], *slot);
         }
     }
+}
+
+namespace {
+
+constexpr std::uint32_t kMostTableLevels = 5, kFewestTableLevels = 2;  // 8 KiB: below, triangles are small
+
+/// References at which the way down ends.
+std::uint64_t countEnds(SurfaceRef ref) {
+    if (ref.ends()) return 1;
+    std::uint64_t ends = 0;
+    for (std::uint32_t i = 0; i < 4; ++i) ends += countEnds(ref.children()[i]);
+    return ends;
+}
+
+void fillTable(SurfaceRef ref, std::size_t nodeBytes, std::span<SurfaceRef> entries) {
+    if (entries.size() == 1 || ref.kind() == SurfaceRef::leaf) return std::fill(entries.begin(), entries.end(), ref);
+    const std::size_t quarter = entries.size() / 4;
+    for (std::uint32_t i = 0; i < 4; ++i) fillTable(ref.child(i, nodeBytes), nodeBytes, entries.subspan(i * quarter, quarter));
+}
+
+}  // namespace
+
+/// Of what is divided often enough, if there is room: at most two entries for each end of a way.
+void SurfaceStore::makeTable(SurfaceShard& shard, SurfaceRef& ref) {
+    const std::uint64_t most = 2 * countEnds(ref);
+    std::uint32_t levels = 0;
+    while (levels < kMostTableLevels && std::uint64_t(4) << 2 * levels <= most) ++levels;
+    if (levels < kFewestTableLevels) return;
+    // In front of the entries: the reference that they stand for, and what aligns them.
+    const std::size_t count = std::size_t(1) << 2 * levels, bytes = (count + 1) * sizeof(SurfaceRef) + 64;
+    std::byte* memory = bytes <= chunkBytes_ ? allocate(shard, bytes) : nullptr;
+    if (memory == nullptr) return;
+    const auto begin = reinterpret_cast<std::uintptr_t>(memory) + sizeof(SurfaceRef);
+    auto* entries = reinterpret_cast<SurfaceRef*>((begin + 63) / 64 * 64);
+    entries[-1] = ref;
+    fillTable(ref, nodeBytes_, {entries, count});
+    ref = SurfaceRef::tableOf(entries, levels);
 }
 
 /// \param inherited  points that came before the triangle was divided off, were they spread evenly

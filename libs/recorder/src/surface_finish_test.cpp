@@ -196,6 +196,48 @@ TEST(SurfaceFinish, APassMayVisitTheSurfaceInAnyOrder) {
     EXPECT_GT(deviation[0], 2 * deviation[1]);
 }
 
+TEST(SurfaceFinish, AfterAPassPointsReachTheTrianglesThatHoldThem) {
+    // Points crowd around a corner, so that levels differ by much. A layer that begins after a pass has nothing from above:
+    // the mean of a coordinate lies within the triangle that it is of.
+    const std::vector<Mesh> meshes = {grid(1)};
+    SurfaceRecorder recorder(meshes, {.samplesPerDivision = 16, .minimumEdge = 0});
+    const SurfaceLayer density = *recorder.addLayer({"density", LayerKind::density, "", ""});
+    const SurfaceLayer across = *recorder.addLayer({"x", LayerKind::mean, "", ""});
+    UniformPoints points(meshes[0], 8);
+    const auto record = [&](int count, bool late) {
+        for (int i = 0; i < count; ++i) {
+            UniformPoint p = points.next();
+            p.uv = p.uv * (p.uv.x + p.uv.y);
+            const SurfacePoint at = recorder.cursor().locate(0, p.face, p.uv);
+            density.add(at);
+            if (late) across.add(at, position(meshes[0], p.face, p.uv).x);
+        }
+    };
+    for (int pass = 0; pass < 3; ++pass) {
+        record(20000, false);
+        recorder.passDone((pass + 1) / 8.0);
+    }
+    record(100000, true);
+    const SurfaceField field = recorder.finish();
+    EXPECT_EQ(field.layers[1].samples, 100000u);
+    const Refined refined(meshes[0], field);
+    ASSERT_GT(refined.areas.size(), 3000u);
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < refined.areas.size(); ++i) {
+        if (field.points[i] < 16) continue;  // perhaps all of them came before the layer
+        float left = 1, right = 0;
+        for (const std::uint32_t v : refined.mesh.triangles[i]) {
+            left = std::min(left, refined.mesh.positions[v].x);
+            right = std::max(right, refined.mesh.positions[v].x);
+        }
+        const float mean = field.layers[1].values[i];
+        EXPECT_GE(mean, left - 1e-6f) << i;
+        EXPECT_LE(mean, right + 1e-6f) << i;
+        ++compared;
+    }
+    EXPECT_GT(compared, 500u);
+}
+
 TEST(SurfaceFinish, AnEdgeInTheDensityStaysAnEdge) {
     // Samples only where x < 0.4: nothing of them may show far on the other side.
     const std::vector<Mesh> meshes = {grid(1)};

@@ -199,7 +199,7 @@ std::uint32_t SurfaceStore::pathOf(const SurfaceMeshView& view, const Triangle& 
 
 SurfaceRef SurfaceStore::root(std::uint32_t face) const {
     const SurfaceRef* slot = slotOf(face);
-    return slot == nullptr ? SurfaceRef() : *slot;
+    return slot == nullptr ? SurfaceRef() : slot->tree();
 }
 
 SurfaceNode* SurfaceStore::rootForTest(std::uint32_t face) { return newRoot(shards_[shardOf(face)], face)->node(); }

@@ -30,10 +30,19 @@ struct SurfaceNode {
 /// How a triangle is reached: where it ends, without a look at the nodes on the way, whose cache lines stay cold. Not
 /// divided: its node. Divided into four that are not: those nodes, one after the other. Else: the four references of its
 /// children. Zero: nothing yet. The node of a divided triangle is the parent of its children's.
+///
+/// Where nothing divides for a while, a face may have a table: an entry for each triangle `levels` below it, so that many
+/// steps become one. An entry is what the way there ends at. In front of the entries stands what the table replaces.
 class SurfaceRef {
   public:
-    enum Kind : std::uintptr_t { inner = 0, leaf = 1, leaves = 2 };
+    enum Kind : std::uintptr_t { inner = 0, leaf = 1, leaves = 2, table = 3 };
     SurfaceRef() = default;
+    /// \param entries  64-byte aligned; behind the reference that the table replaces
+    static SurfaceRef tableOf(const SurfaceRef* entries, std::uint32_t levels) {
+        SurfaceRef ref(entries, table);
+        ref.word_ |= std::uintptr_t(levels) << 2;
+        return ref;
+    }
     SurfaceRef(const void* target, Kind kind) : word_(reinterpret_cast<std::uintptr_t>(target) | kind) {}
     explicit operator bool() const { return word_ != 0; }
     Kind kind() const { return Kind(word_ & 3); }
@@ -43,6 +52,11 @@ class SurfaceRef {
     SurfaceNode* end(std::uint32_t which, std::size_t nodeBytes) const {
         return reinterpret_cast<SurfaceNode*>((word_ & ~std::uintptr_t(3)) + (word_ >> 1 & 1) * which * nodeBytes);
     }
+    bool ends() const { return kind() == leaf || kind() == leaves; }
+    std::uint32_t levels() const { return word_ >> 2 & 15; }                                           ///< table
+    SurfaceRef* entries() const { return reinterpret_cast<SurfaceRef*>(word_ & ~std::uintptr_t(63)); }  ///< table
+    /// Without the table.
+    SurfaceRef tree() const { return kind() == table ? entries()[-1] : *this; }
     bool isDivided() const { return kind() != leaf; }
     SurfaceRef child(std::uint32_t which, std::size_t nodeBytes) const {
         return kind() == inner ? children()[which] : SurfaceRef(end(which, nodeBytes), leaf);
@@ -183,6 +197,7 @@ class SurfaceStore {
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
     void divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited, double growth);
+    void makeTable(SurfaceShard& shard, SurfaceRef& ref);
     bool mayDivide(std::uint32_t face, std::uint32_t level) const;
     SurfaceRef* slotOf(std::uint32_t face) const;
     SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
