@@ -54,13 +54,21 @@ SurfaceLayers::SurfaceLayers(SurfaceRecorder& surface) : recorder(&surface) {
 }
 
 void SurfaceTally::intersection(const SurfaceInteraction& at, Color throughput) {
-    here_ = locate(cursor_, at.mesh, at.face, at.barycentrics, at.position);
-    layers_.intersections.add(here_);
-    layers_.throughput.add(here_, throughput);
-    if (layers_.perPath) vertices_.push_back({here_, throughput});
+    at_ = &at;
+    here_ = {};
+    if (layers_.intersections) layers_.intersections.add(here());
+    if (layers_.throughput) layers_.throughput.add(here(), throughput);
+    if (layers_.perPath) vertices_.push_back({here(), throughput});
+}
+
+const SurfacePoint& SurfaceTally::here() {
+    if (at_ != nullptr) here_ = locate(cursor_, at_->mesh, at_->face, at_->barycentrics, at_->position);
+    at_ = nullptr;
+    return here_;
 }
 
 void SurfaceTally::background() {
+    at_ = nullptr;
     here_ = {};
     if (layers_.perPath) vertices_.push_back({here_, Color(0.f)});
 }

@@ -32,7 +32,7 @@ class SurfaceTally {
   public:
     explicit SurfaceTally(const SurfaceLayers& layers) : layers_(layers), cursor_(layers.recorder->cursor()) {}
 
-    /// A path met a surface; until the next call, everything is about this vertex.
+    /// A path met a surface; until the next call, everything is about this vertex. `at` must stay as long.
     /// \param throughput  of the camera path up to here
     void intersection(const SurfaceInteraction& at, Color throughput);
     /// The path left the scene: a last place without surface.
@@ -42,13 +42,13 @@ class SurfaceTally {
     /// A point on a light was chosen.
     void nextEvent(const EmitterSample& light);
     /// MIS weight of light sampling here, whether or not the light is visible.
-    void misWeight(float weight) { layers_.misWeight.add(here_, weight); }
+    void misWeight(float weight) { if (layers_.misWeight) layers_.misWeight.add(here(), weight); }
     /// Light that light sampling found, as it is reflected here towards the path.
     void direct(Color radiance) { if (!vertices_.empty()) vertices_.back().direct += radiance; }
     /// The path goes on. \param factor  BSDF times cosine over density, over the probability to survive
     void scattered(Color factor) { if (!vertices_.empty()) vertices_.back().factor = factor; }
-    void invalidDirection() { layers_.invalidDirections.add(here_); }
-    void rouletteEnd() { layers_.roulette.add(here_); }
+    void invalidDirection() { if (layers_.invalidDirections) layers_.invalidDirections.add(here()); }
+    void rouletteEnd() { if (layers_.roulette) layers_.roulette.add(here()); }
     /// The path ended. \param depth  its number of vertices
     void end(int depth);
 
@@ -60,6 +60,10 @@ class SurfaceTally {
     };
     const SurfaceLayers& layers_;
     SurfaceCursor& cursor_;
+    /// The place of this vertex: a place is a point of the subdivision, so only where there is something to add.
+    const SurfacePoint& here();
+
+    const SurfaceInteraction* at_ = nullptr;  ///< of this vertex, as long as nothing was added; null: nowhere
     SurfacePoint here_;
     std::vector<Vertex> vertices_;  ///< empty where no layer asks for the end
 };
