@@ -135,11 +135,17 @@ void PathPlot::connectRow(Row& row) {
 void PathPlot::reload() {
     const PathSet& paths = dataset_.paths();
     for (const auto& row : rows_) {
+    // Sample indices of several pixels are the same numbers: their paths stand one pixel after the other.
+    const bool several = severalPixels(paths);
+    if (several != several_) {
+        several_ = several;
+        for (const auto& row : rows_) row->plot->setAxes({several ? tr("path, pixel after pixel") : tr("sample index"), {}, true, false}, row->spec.axis);
+    }
         row->series = row->spec.series(paths);
         row->shown = !row->spec.optional || !row->series.values.empty();
         std::vector<double> samples;
         samples.reserve(row->series.size());
-        for (const Index path : row->series.paths) samples.push_back(static_cast<double>(paths.sample(path)));
+        for (const Index path : row->series.paths) samples.push_back(several ? double(path) : static_cast<double>(paths.sample(path)));
         row->plot->setVisible(row->shown);
         row->plot->setPoints(std::move(samples), row->series.values);
     }

@@ -88,3 +88,4 @@ class PathPlot : public QWidget {
 };
 
 }  // namespace emca::explorer
+    bool several_ = false;   ///< paths of more than one pixel

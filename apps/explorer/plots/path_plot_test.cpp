@@ -265,11 +265,17 @@ TEST(PathPlot, HoverTellsTheOthersAndShowsValues) {
 }
 
 TEST(PathPlot, PointsOnTopOfEachOtherAreCounted) {
-    // Three pixels: the same sample index and depth in each.
-    std::vector<PathSet> sets;
-    for (std::uint32_t x = 0; x < 3; ++x)
-        sets.push_back(pathsWithEstimates(std::vector<Color>(4, Color(1)), {2}, {x, 0}));
-    Bench<DepthPlot> bench(PathSet::merged(sets));
+    // Samples that split into three parts of the same depth.
+    PathColumns columns = pathsWithEstimates(std::vector<Color>(12, Color(1)), {2}).columns();
+    std::vector<std::int64_t> samples;
+    std::vector<std::int32_t> parts;
+    for (int i = 0; i < 12; ++i) {
+        samples.push_back(i / 3);
+        parts.push_back(i % 3);
+    }
+    columns.samples = samples;
+    columns.parts = parts;
+    Bench<DepthPlot> bench(PathSet::make(std::move(columns)).value());
     ASSERT_EQ(bench.plot.row(0).content().xs.size(), 12u);
     const QPoint at = bench.at(0, 1);
     QWidget* canvas = bench.plot.row(0).canvas();
@@ -277,6 +283,24 @@ TEST(PathPlot, PointsOnTopOfEachOtherAreCounted) {
     QApplication::sendEvent(canvas, &move);
     EXPECT_TRUE(bench.plot.row(0).hoverText().endsWith("and 2 more here"))
         << bench.plot.row(0).hoverText().toStdString();
+}
+
+TEST(PathPlot, PathsOfSeveralPixelsStandOnePixelAfterTheOther) {
+    std::vector<PathSet> sets;
+    for (std::uint32_t x = 0; x < 3; ++x) sets.push_back(pathsWithEstimates(std::vector<Color>(4, Color(float(x))), {2}, {x, 7}));
+    Bench<LuminancePlot> bench(PathSet::merged(sets));
+    const std::vector<double>& xs = bench.plot.row(0).content().xs;
+    ASSERT_EQ(xs.size(), 12u);
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(xs[i], double(i));
+    const QPoint at = bench.at(0, 9);
+    QWidget* canvas = bench.plot.row(0).canvas();
+    QMouseEvent move(QEvent::MouseMove, at, canvas->mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(canvas, &move);
+    EXPECT_TRUE(bench.plot.row(0).hoverText().startsWith("sample 1 (2, 7)")) << bench.plot.row(0).hoverText().toStdString();
+    EXPECT_TRUE(bench.plot.csv().contains("\n2,7,1,0,"));
+    // One pixel again: its sample indices.
+    bench.dataset.addTrace(test::traceOf(pathsWithEstimates(std::vector<Color>(4, Color(1)), {2})));
+    EXPECT_EQ(bench.plot.row(0).content().xs.back(), 3.0);
 }
 
 TEST(PathPlot, EveryPathIsInOneBarOrEdgeRow) {

@@ -2,6 +2,7 @@
 
 #include <QFileInfo>
 #include <QRegularExpression>
+#include <algorithm>
 #include <cmath>
 
 #include "base/qt_compat.h"
@@ -125,6 +126,15 @@ Result<void> setValue(Options& options, const QString& name, const QString& valu
         const auto xy = twoNumbers(value, ",");
         if (!xy) return usageError("--pixel takes a column and a row like 12,34; \"" + value + "\" is none.");
         options.pixel = Pixel{static_cast<std::uint32_t>(xy->first), static_cast<std::uint32_t>(xy->second)};
+    } else if (name == "--region") {
+        const auto ends = numbers(value, 4);
+        const bool whole = ends && std::ranges::all_of(*ends, [](double v) { return v >= 0 && v < 4e9 && v == std::floor(v); });
+        if (whole) {
+            const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>((*ends)[i]); };
+            options.region = PixelRect{at(0), at(1), at(2), at(3)};
+        }
+        if (!whole || options.region->empty())
+            return usageError("--region takes the first column and row and those after the last, like 12,30,20,38; \"" + value + "\" is none.");
     } else if (name == "--size") {
         const auto size = twoNumbers(value, "x");
         if (!size || size->first < 640 || size->second < 400 || size->first > 8192 || size->second > 8192)
@@ -195,6 +205,7 @@ QString usage() {
         "  --screenshot OUT.png save a picture of the window when everything is drawn, and end\n"
         "  --tour DIR           save pictures of every view around the most striking path, and index.md, and end\n"
         "  --size WxH           size of the window\n"
+        "  --region X0,Y0,X1,Y1 select pixels together: columns from X0 to before X1, rows from Y0 to before Y1\n"
         "  --theme dark|light\n"
         "  --settings FILE      layout, theme and addresses from this file\n\n"
         "Data on surfaces and the 3D view:\n"

@@ -34,6 +34,7 @@ struct Options {
     std::optional<client::Address> address;
     QString image, session;              ///< files to open; empty for none
     std::optional<Pixel> pixel;
+    std::optional<PixelRect> region;     ///< in place of a pixel
     bool firefly = false;                ///< the most striking pixel in place of a given one, and its outlier path
     QString screenshot;                  ///< PNG to write, then end; empty: stay open
     QString tour;                        ///< folder for pictures and index.md, then end; empty: stay open

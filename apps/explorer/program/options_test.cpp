@@ -44,7 +44,7 @@ TEST(Options, ASessionIsKnownByItsName) {
 }
 
 TEST(Options, MistakesNameWhatIsWrong) {
-    for (const QStringList& wrong : {QStringList{"--pixel", "12"}, {"--pixel", "-1,2"}, {"--size", "10x10"}, {"--theme", "blue"},
+    for (const QStringList& wrong : {QStringList{"--pixel", "12"}, {"--region", "1,2,3"}, {"--region", "4,0,4,9"}, {"--region", "0,0,1.5,2"}, {"--pixel", "-1,2"}, {"--size", "10x10"}, {"--theme", "blue"},
                                      {"--spp", "0"}, {"--spp", "1e3"}, {"--frobnicate", "1"}, {"--pixel"}, {"--tour", "x"}}) {
         const auto options = parseOptions(wrong);
         ASSERT_FALSE(options) << wrong.join(' ').toStdString();

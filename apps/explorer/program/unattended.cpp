@@ -70,7 +70,8 @@ void Unattended::start() {
         window_.connectTo(*options_.address);
     }
     const bool firefly = options_.firefly || !options_.tour.isEmpty();
-    if (options_.pixel || firefly) then([this] { selectPixel(); });
+    if (options_.region) then([this] { selectRegion(); });
+    else if (options_.pixel || firefly) then([this] { selectPixel(); });
     if (options_.firefly) then([this] { selectSuspect(); });
     if (!options_.tour.isEmpty()) then([this] { tour(); });
     then([this] { applyScene(); });
@@ -158,7 +159,7 @@ void Unattended::end(int code, const QString& sentence) {
 
 void Unattended::selectPixel() {
     // A session was saved with the pixel that matters.
-    if (!options_.pixel && !options_.session.isEmpty() && selection_.state().pixel && !dataset_.paths().empty()) return;
+    if (!options_.pixel && !options_.session.isEmpty() && !selection_.pixels().empty() && !dataset_.paths().empty()) return;
     std::optional<Pixel> pixel = options_.pixel;
     const client::ImageEntry* entry = dataset_.currentImage();
     if (!pixel && entry && entry->image)
@@ -183,6 +184,22 @@ void Unattended::selectPixel() {
         return;
     }
     selection_.setPixel(*pixel);
+}
+
+void Unattended::selectRegion() {
+    const PixelRect region = *options_.region;
+    const client::ImageEntry* entry = dataset_.currentImage();
+    const std::uint32_t width = entry && entry->image ? entry->image->color.width() : dataset_.info() ? dataset_.info()->width : 0;
+    const std::uint32_t height = entry && entry->image ? entry->image->color.height() : dataset_.info() ? dataset_.info()->height : 0;
+    if (region.x1 > width || region.y1 > height) {
+        const QString sentence = tr("The region %1,%2,%3,%4 reaches beyond the image of %5 × %6 pixels.")
+                                     .arg(region.x0).arg(region.y0).arg(region.x1).arg(region.y1).arg(width).arg(height);
+        if (options_.unattended()) end(3, sentence);
+        else window_.toast().showError(sentence);
+        return;
+    }
+    selection_.setRegion(client::PixelRegion(region));
+    window_.showDock("region");
 }
 
 void Unattended::save(QWidget* widget, const QString& file, const QString& caption) {

@@ -30,6 +30,7 @@ class Unattended : public QObject {
     void tick();
     void end(int code, const QString& sentence = {});
     void selectPixel();
+    void selectRegion();
     void selectSuspect();
     void onlyScene();
     void applyScene();

@@ -31,7 +31,7 @@ SessionController::SessionController(client::Dataset& dataset, client::Selection
           if ((parts & client::DatasetPart::currentImage) && !showing_) ensureTraced(true);
       }),
       selectionListening_(selection, [this](std::uint32_t parts) {
-          if ((parts & client::SelectionPart::pixel) && !showing_) ensureTraced(false);
+          if ((parts & (client::SelectionPart::pixel | client::SelectionPart::region)) && !showing_) ensureTraced(false);
       }) {
     qRegisterMetaType<FailedTask>();
     connect(&progress_, &QTimer::timeout, this, [this] {
@@ -102,7 +102,7 @@ void SessionController::drop() {
         if (*activity) *(*activity)->cancel = true;
         activity->reset();
     }
-    tracing_.reset();
+    tracing_ = {};
     if (const auto gone = std::move(connection_)) workers_.start([gone] { gone->close(); });
     connection_.reset();
     if (finished_) completeRender(std::nullopt);

@@ -27,8 +27,8 @@ bool sameScene(const client::ServerInfo& a, const client::ServerInfo& b);
 /// Everything between the models and the renderer: owns the connection, runs all requests and file access in other
 /// threads and puts what arrives into Dataset. GUI thread; no function blocks.
 ///
-/// A pixel that becomes selected is traced: from the history at once if it was traced for the same image, else by a
-/// request. The latest pixel wins; an earlier request is cancelled. A connection that is lost is opened again with
+/// A pixel or a region that becomes selected is traced: from the history at once if it was traced for the same image, else
+/// by one request. The latest choice wins; an earlier request is cancelled. A region with very many paths waits for a word. A connection that is lost is opened again with
 /// growing pauses; images and traces stay, the scene is loaded anew.
 class SessionController : public QObject {
     Q_OBJECT
@@ -73,7 +73,15 @@ class SessionController : public QObject {
     double traceFraction() const { return trace_ ? trace_->fraction.load() : 0; }
     double traceSeconds() const { return trace_ ? double(trace_->clock.elapsed()) / 1000 : 0; }
     double sceneFraction() const { return scene_ ? scene_->fraction.load() : 0; }
-    std::optional<Pixel> tracedPixel() const { return tracing_; }
+    /// Empty if nothing is traced.
+    const client::PixelRegion& tracedPixels() const { return tracing_; }
+    /// A region with more paths is traced by traceAgain() only: a person may have wanted the numbers of its pixels.
+    static constexpr std::uint64_t kUnaskedPaths = 1u << 16;
+    /// How many paths the selected region has, if it waits for traceAgain(); else 0.
+    std::uint64_t heldBack() const { return heldBack_; }
+    /// With a query regions bring only the paths that it takes, as the renderer says (docs/queries.md); empty: all.
+    const std::string& regionQuery() const { return regionQuery_; }
+    void setRegionQuery(const std::string& query);
     /// "pixel (12, 34) in 23.10 ms, renderer 17.00 ms"; empty before the first request.
     const QString& lastRequest() const { return lastRequest_; }
 
@@ -128,14 +136,19 @@ class SessionController : public QObject {
     void fail(FailedTask task, const Error& error);
 
     void ensureTraced(bool quietly);
-    void trace(Pixel pixel);
-    void traced(std::shared_ptr<Activity> activity, std::shared_ptr<const RenderedImage> image, Result<client::Trace> result);
-    void present(std::shared_ptr<const client::Trace> trace, bool fresh);
-    std::shared_ptr<const client::Trace> storedTrace(Pixel pixel) const;
+    void trace(const client::PixelRegion& pixels);
+    struct Known;
+    void traced(std::shared_ptr<Activity> activity, Known asked, Result<client::Trace> result);
+    void present(std::vector<std::shared_ptr<const client::Trace>> traces, bool fresh);
+    std::shared_ptr<const client::Trace> knownTrace(const client::PixelRegion& pixels) const;
+    std::shared_ptr<const client::Trace> storedTrace(const client::PixelRegion& pixels, bool exactly) const;
+    bool showStored(const client::PixelRegion& pixels, bool quietly);
+    std::string queryFor(const client::PixelRegion& pixels) const { return pixels.size() > 1 ? regionQuery_ : std::string(); }
+    std::uint64_t pathsOf(const client::PixelRegion& pixels) const;
     void showSession(client::Session session);
-    /// Why the pixel of the current image cannot be traced, or empty.
-    QString obstacle(Pixel pixel) const;
-    client::TraceOptions traceOptions(Pixel pixel) const;
+    /// Why pixels of the current image cannot be traced, or empty.
+    QString obstacle(const client::PixelRegion& pixels) const;
+    client::TraceOptions traceOptions(const client::PixelRegion& pixels) const;
 
     void rendered(const std::shared_ptr<Activity>& activity, bool withLayers, Result<client::Render> result);
     void completeRender(std::optional<Result<SurfaceField>> surface);
@@ -171,15 +184,18 @@ class SessionController : public QObject {
     std::vector<client::PixelNote> pixelNotes_;
     std::optional<client::SavedFilter> filter_;
     bool showing_ = false;              ///< a session comes: its selection asks for no traces
-    std::optional<Pixel> tracing_;
+    client::PixelRegion tracing_;
+    std::string regionQuery_;
+    std::uint64_t heldBack_ = 0;
     QTimer progress_;
     double shownProgress_ = -1;         ///< what the last activityChanged was about
     QString lastRequest_;
 
     struct Known {
-        Pixel pixel;
+        client::PixelRegion pixels;
         const RenderedImage* image;     ///< only compared
-        std::shared_ptr<const client::Trace> trace;
+        std::string query;
+        std::weak_ptr<const client::Trace> trace;   ///< as long as the history holds it
     };
     std::deque<Known> known_;
 

@@ -87,9 +87,10 @@ void SessionController::showSession(client::Session session) {
     endPreviews(session.images);
     known_.clear();
     for (const auto& trace : session.traces) {
-        if (trace->pixels.size() != 1 || trace->renderId == 0) continue;
+        // Of the matches of a query the file does not know which one it was.
+        if (trace->pixels.empty() || trace->renderId == 0 || trace->matches) continue;
         for (const client::ImageEntry& entry : session.images)
-            if (entry.renderId == trace->renderId) known_.push_back({trace->pixels.front(), entry.image.get(), trace});
+            if (entry.renderId == trace->renderId) known_.push_back({client::PixelRegion(trace->pixels), entry.image.get(), {}, trace});
     }
     // The server may have begun to count anew since the session was saved.
     if (stays)

@@ -1,11 +1,13 @@
 #include "window/history_view.h"
 
 #include <QListView>
+#include <QLocale>
 #include <QMenu>
 #include <QPainter>
 #include <QSignalBlocker>
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
@@ -19,6 +21,8 @@ namespace {
 
 constexpr int kRowHeight = 46;
 
+QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
+
 class HistoryDelegate : public QStyledItemDelegate {
   public:
     HistoryDelegate(HistoryModel& model, Theme& theme, QObject* parent) : QStyledItemDelegate(parent), model_(model), theme_(theme) {}
@@ -31,20 +35,25 @@ class HistoryDelegate : public QStyledItemDelegate {
         const bool selected = option.state & QStyle::State_Selected, hovered = option.state & QStyle::State_MouseOver;
         painter->fillRect(option.rect, selected ? c.selectedRow : hovered ? c.panel : c.ground);
         const QRect box = option.rect.adjusted(Spacing::medium, 6, -Spacing::medium, -6);
-        const Replay replay = trace->replays.empty() ? Replay{} : trace->replays.front();
+        const HistoryModel::Entry& entry = model_.entry(index.row());
+        const ReplayCounts& counts = entry.counts;
+        const Replay& replay = entry.replay;
         paintSwatch(*painter, QRect(box.left(), box.top(), 34, box.height()), replay.replayed, analysis::ToneMapper(theme_.toneMap()), theme_);
         const QRect text = box.adjusted(44, 0, 0, 0);
         painter->setFont(theme_.numberFont());
         painter->setPen(c.text);
-        painter->drawText(text, Qt::AlignLeft | Qt::AlignTop, toQString(analysis::formatPixel(trace->pixels.front())));
+        painter->drawText(text, Qt::AlignLeft | Qt::AlignTop, entry.name);
         painter->setPen(replay.verdict == Verdict::exact ? c.success : replay.verdict == Verdict::different ? c.warning : c.mutedText);
-        painter->drawText(text, Qt::AlignRight | Qt::AlignTop, toQString(name(replay.verdict)));
+        painter->drawText(text, Qt::AlignRight | Qt::AlignTop, counts.pixels > 1 && counts.exact > 0 && counts.exact < counts.pixels
+                              ? QObject::tr("%1 of %2 exact").arg(counts.exact).arg(counts.pixels)
+                              : toQString(name(replay.verdict)));
         painter->setFont(theme_.smallNumberFont());
         painter->setPen(c.mutedText);
         painter->drawText(text, Qt::AlignLeft | Qt::AlignBottom,
                           QStringLiteral("Y %1").arg(toQString(analysis::formatNumber(double(luminance(replay.replayed))))));
         painter->drawText(text, Qt::AlignRight | Qt::AlignBottom,
-                          QObject::tr("%1 paths").arg(trace->paths.pathCount()));
+                          trace->matches ? QObject::tr("%1 of %2 paths").arg(grouped(trace->paths.pathCount()), grouped(trace->matches->paths))
+                                         : QObject::tr("%1 paths").arg(grouped(trace->paths.pathCount())));
     }
 
   private:
@@ -54,29 +63,48 @@ class HistoryDelegate : public QStyledItemDelegate {
 
 }  // namespace
 
-HistoryModel::HistoryModel(client::Dataset& dataset, QObject* parent) : QAbstractListModel(parent), dataset_(dataset), traces_(dataset.traces()) {}
+HistoryModel::HistoryModel(client::Dataset& dataset, QObject* parent) : QAbstractListModel(parent), dataset_(dataset) { reload(); }
 
 void HistoryModel::reload() {
     beginResetModel();
-    traces_ = dataset_.traces();
+    std::vector<Entry> before = std::move(entries_);
+    entries_.clear();
+    for (const auto& trace : dataset_.traces()) {
+        const auto known = std::ranges::find(before, trace, &Entry::trace);
+        entries_.push_back(known != before.end() ? std::move(*known) : entryOf(trace));
+    }
     endResetModel();
 }
 
-int HistoryModel::rowCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : static_cast<int>(traces_.size()); }
+HistoryModel::Entry HistoryModel::entryOf(std::shared_ptr<const client::Trace> trace) {
+    Entry entry;
+    entry.counts = countReplays(trace->replays);
+    entry.replay.verdict = entry.counts.worst();
+    for (const Replay& one : trace->replays) entry.replay.replayed += one.replayed / float(entry.counts.pixels);
+    if (trace->pixels.size() == 1) entry.name = toQString(analysis::formatPixel(trace->pixels.front()));
+    else entry.name = toQString(client::PixelRegion(trace->pixels).text());
+    entry.trace = std::move(trace);
+    return entry;
+}
+
+int HistoryModel::rowCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : static_cast<int>(entries_.size()); }
 
 std::shared_ptr<const client::Trace> HistoryModel::trace(int row) const {
-    return row >= 0 && row < rowCount() ? traces_[static_cast<std::size_t>(row)] : nullptr;
+    return row >= 0 && row < rowCount() ? entries_[static_cast<std::size_t>(row)].trace : nullptr;
 }
 
 QVariant HistoryModel::data(const QModelIndex& index, int role) const {
     const auto held = trace(index.row());
     if (!held || held->pixels.empty()) return {};
-    const QString pixel = toQString(analysis::formatPixel(held->pixels.front()));
-    if (role == Qt::DisplayRole) return pixel;
+    const QString& name = entry(index.row()).name;
+    if (role == Qt::DisplayRole) return name;
     if (role != Qt::ToolTipRole) return {};
-    return tr("Pixel %1: %2 samples per pixel, %3 paths, %4 vertices. The renderer took %5.")
-        .arg(pixel).arg(held->samplesPerPixel).arg(held->paths.pathCount()).arg(held->paths.vertexCount())
-        .arg(toQString(analysis::formatDuration(held->renderSeconds)));
+    const QString told = tr("%1: %2 samples per pixel, %3 paths, %4 vertices. The renderer took %5.")
+                             .arg(held->pixels.size() == 1 ? tr("Pixel %1").arg(name) : name.left(1).toUpper() + name.mid(1)).arg(held->samplesPerPixel)
+                             .arg(grouped(held->paths.pathCount()), grouped(held->paths.vertexCount()),
+                                  toQString(analysis::formatDuration(held->renderSeconds)));
+    if (!held->matches) return told;
+    return told + tr(" Only what a filter takes: %1 of %2 paths.").arg(grouped(held->matches->matched), grouped(held->matches->paths));
 }
 
 HistoryView::HistoryView(client::Dataset& dataset, client::Selection&, Theme& theme, QWidget* parent)
@@ -116,7 +144,7 @@ HistoryView::HistoryView(client::Dataset& dataset, client::Selection&, Theme& th
 
 void HistoryView::reload() {
     model_->reload();
-    if (dataset_.traces().empty()) overlay_->showEmpty(tr("No pixels yet"), tr("Traced pixels are kept here. Click a pixel in the image."));
+    if (dataset_.traces().empty()) overlay_->showEmpty(tr("No pixels yet"), tr("Traced pixels and regions are kept here. Click a pixel in the image."));
     else overlay_->clear();
 }
 

@@ -13,7 +13,7 @@ namespace emca::explorer {
 class StateOverlay;
 class Theme;
 
-/// The traced pixels, newest first, with their colours as the image shows them.
+/// The traced pixels and regions, newest first, with their colours as the image shows them.
 class HistoryModel : public QAbstractListModel {
     Q_OBJECT
   public:
@@ -23,9 +23,20 @@ class HistoryModel : public QAbstractListModel {
     QVariant data(const QModelIndex& index, int role) const override;
     std::shared_ptr<const client::Trace> trace(int row) const;
 
+    /// A trace as a row shows it; of a region: its mean and its worst verdict.
+    struct Entry {
+        std::shared_ptr<const client::Trace> trace;
+        QString name;            ///< "(12, 34)" or "region 8x8 at (12, 34)"
+        ReplayCounts counts;
+        Replay replay;
+    };
+    /// \param row  in [0, rowCount())
+    const Entry& entry(int row) const { return entries_[static_cast<std::size_t>(row)]; }
+
   private:
+    static Entry entryOf(std::shared_ptr<const client::Trace> trace);
     client::Dataset& dataset_;
-    std::vector<std::shared_ptr<const client::Trace>> traces_;
+    std::vector<Entry> entries_;
 };
 
 /// Pixel history: a click shows that reply again without asking the renderer.

@@ -12,7 +12,7 @@ namespace {
 QString tr(const char* text) { return QCoreApplication::translate("emca::explorer::LayoutPlan", text); }
 
 const QStringList kPlots{"plots-rgb", "plots-luminance", "plots-depth"};
-const QStringList kTools{"outliers", "filter", "history", "surfaces", "sceneOptions", "notes"};
+const QStringList kTools{"outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"};
 
 using Cell = LayoutPlan::Cell;
 using Row = LayoutPlan::Row;

@@ -16,6 +16,7 @@
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
+#include "image/region_panel.h"
 #include "paths/vertex_table.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
@@ -146,6 +147,7 @@ void MainWindow::readSettings() {
     if (const QByteArray geometry = settings_.value("window/geometry").toByteArray(); !geometry.isEmpty()) restoreGeometry(geometry);
     action("renderOnConnect")->setChecked(settings_.value("renderOnConnect", true).toBool());
     views_.filter->setState(readFilter(settings_));
+    addDock(tr("Region"), "region", views_.region);
     history_.clear();
 }
 
@@ -196,7 +198,7 @@ void MainWindow::render() {
 
 bool MainWindow::isSettled() const {
     return session_.isIdle() && views_.image->pixels().isReady() && !views_.scene->isLoading() && !views_.scene->isMoving() &&
-           views_.filter->isSettled();
+           views_.filter->isSettled() && views_.region->isSettled();
 }
 
 }  // namespace emca::explorer

@@ -99,6 +99,7 @@ class MainWindow : public QMainWindow {
     Views views_;
     std::map<QString, PanelDock*> docks_;
     std::map<QString, QAction*> actions_;
+    void connectRegion();
     std::vector<std::pair<QWidget*, StateOverlay*>> busy_;
     Toast* toast_ = nullptr;
     FileMenu* files_ = nullptr;
@@ -110,7 +111,7 @@ class MainWindow : public QMainWindow {
     SampleBox* samples_ = nullptr;
     QToolButton* connectButton_ = nullptr;
     std::vector<std::pair<QAction*, Icon>> icons_;
-    bool arranged_ = false, samplesChosen_ = false;
+    bool arranged_ = false, samplesChosen_ = false, regionShown_ = false;
     EditHistory history_;
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;

@@ -9,6 +9,8 @@
 
 #include "base/theme.h"
 #include "image/image_controls.h"
+#include "image/region_panel.h"
+#include "image/region_tool.h"
 #include "image/image_view.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
@@ -53,7 +55,7 @@ void MainWindow::addMenus() {
     automatic->setCheckable(true);
     connect(automatic, &QAction::toggled, this, [this](bool on) { session_.setRenderOnConnect(on); });
     renderer->addSeparator();
-    addAction(renderer, "traceAgain", tr("Trace pixel again"), QKeySequence("T"), [this] { session_.traceAgain(); });
+    addAction(renderer, "traceAgain", tr("Trace the pixel or region again"), QKeySequence("T"), [this] { session_.traceAgain(); });
     addAction(renderer, "reloadScene", tr("Reload the scene"), {}, [this] { session_.reloadScene(); });
 
     QMenu* selection = menuBar()->addMenu(tr("&Selection"));
@@ -63,16 +65,28 @@ void MainWindow::addMenus() {
     addAction(selection, "nextVertex", tr("Next vertex"), QKeySequence("."), [this] { stepVertex(dataset_, selection_, +1); });
     selection->addSeparator();
     addAction(selection, "focus", tr("Focus on the selection"), QKeySequence("F"), [this] { focusSelection(); });
-    QAction* rectangle = addAction(selection, "rectangle", tr("Select in a rectangle (3D)"), QKeySequence("R"), [this] {
-        views_.scene->setRectangleMode(action("rectangle")->isChecked());
+    QAction* rectangle = addAction(selection, "rectangle", tr("Select in a rectangle"), QKeySequence("R"), [this] {
+        const bool on = action("rectangle")->isChecked();
+        // Pixels of the image where it has the focus, else paths and vertices of the scene.
+        if (on && views_.image->isAncestorOf(QApplication::focusWidget())) return views_.image->regionTool().setRectangleMode(true);
+        views_.scene->setRectangleMode(on);
+        if (!on) views_.image->regionTool().setRectangleMode(false);
     });
     rectangle->setCheckable(true);
+    connect(&views_.image->regionTool(), &RegionTool::rectangleModeChanged, rectangle, &QAction::setChecked);
     connect(views_.scene, &SceneView::rectangleModeChanged, rectangle, &QAction::setChecked);
     addAction(selection, "clear", tr("Clear"), QKeySequence("Esc"), [this] {
-        // One step back at a time: the mode, the vertex, the paths.
-        if (action("rectangle")->isChecked()) views_.scene->setRectangleMode(false);
-        else if (selection_.state().vertex) selection_.clearVertex();
-        else selection_.clearPaths();
+        // One step back at a time: the mode, the vertex, the paths, the region.
+        if (action("rectangle")->isChecked()) {
+            views_.scene->setRectangleMode(false);
+            views_.image->regionTool().setRectangleMode(false);
+        } else if (selection_.state().vertex) {
+            selection_.clearVertex();
+        } else if (!selection_.state().paths.empty()) {
+            selection_.clearPaths();
+        } else if (!selection_.state().region.empty()) {
+            selection_.setRegion({});
+        }
     });
     addAction(selection, "undo", tr("Undo"), QKeySequence::Undo, [this] { history_.undo(); });
     addAction(selection, "redo", tr("Redo"), QKeySequence("Ctrl+Shift+Z"), [this] { history_.redo(); });
@@ -82,7 +96,7 @@ void MainWindow::addMenus() {
     addAction(view, "falseColor", tr("False colour"), QKeySequence("C"), [this] { views_.image->controls().toggleFalseColor(); });
     addAction(view, "nextInvalid", tr("Next NaN, infinite or negative pixel"), QKeySequence("N"), [this] { views_.image->goToNextInvalid(); });
     view->addSeparator();
-    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "history", "surfaces", "sceneOptions", "notes"})
+    for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
     for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
     view->addSeparator();
@@ -165,7 +179,7 @@ void MainWindow::updateActions() {
     action("render")->setEnabled(connected);
     views_.surfaces->setCanRender(connected);
     action("cancel")->setEnabled(session_.isRendering());
-    action("traceAgain")->setEnabled(connected && selection_.state().pixel.has_value());
+    action("traceAgain")->setEnabled(connected && (selection_.state().pixel || !selection_.state().region.empty()));
     action("reloadScene")->setEnabled(connected);
     files_->updateActions();
     for (const char* name : {"previousPath", "nextPath", "previousVertex", "nextVertex"}) action(name)->setEnabled(paths);
@@ -182,6 +196,10 @@ void MainWindow::toggleLog() {
     }
     for (const Views::Plot& plot : views_.plots)
         if (!plot.widget->visibleRegion().isEmpty()) plot.widget->setLog(!plot.widget->isLog());
+    if (views_.region->isAncestorOf(QApplication::focusWidget())) {
+        views_.region->setLog(!views_.region->isLog());
+        return;
+    }
 }
 
 void MainWindow::focusSelection() {

@@ -4,6 +4,8 @@
 #include "emca/analysis/format.h"
 #include "image/image_view.h"
 #include "paths/filter_panel.h"
+#include "image/region_panel.h"
+#include "image/region_tool.h"
 #include "paths/path_tree.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
@@ -60,11 +62,34 @@ void MainWindow::showStates() {
     if (dataset_.currentImage()) {
         overlay.clear();
         return;
+    connectRegion();
     }
     if (session_.isOpeningSession()) {
         overlay.showBusy(tr("Opening the session"), session_.sessionFraction(), tr("Cancel"), [this] { session_.cancelSession(); });
         return;
     }
+void MainWindow::connectRegion() {
+    const auto askFilter = [this] {
+        const FilterModel& model = views_.filter->model();
+        const bool asks = model.state() == FilterModel::State::done || model.state() == FilterModel::State::running;
+        views_.region->setFilter(asks ? toQString(model.query()).trimmed() : QString());
+    };
+    connect(views_.filter, &FilterPanel::edited, this, askFilter);
+    askFilter();
+    connect(views_.region, &RegionPanel::queryWanted, this, [this](const QString& query) { session_.setRegionQuery(query.toStdString()); });
+    connect(views_.region, &RegionPanel::traceWanted, &session_, &SessionController::traceAgain);
+    const auto tellTracing = [this] {
+        views_.region->setTracing({session_.link() == LinkState::connected, session_.isTracing(), session_.heldBack()});
+    };
+    connect(&session_, &SessionController::activityChanged, this, tellTracing);
+    connect(&session_, &SessionController::linkChanged, this, tellTracing);
+    connect(&views_.image->regionTool(), &RegionTool::chosen, this, [this] {
+        // The first region brings its numbers to the front; then the tabs are as a person wants them.
+        if (!regionShown_ && !selection_.state().region.empty()) showDock("region");
+        regionShown_ = regionShown_ || !selection_.state().region.empty();
+    });
+}
+
     const auto openPanel = [this] { connectPanel_->openBelow(connectButton_); };
     switch (session_.link()) {
         case LinkState::offline:
@@ -84,10 +109,10 @@ void MainWindow::showStates() {
 }
 
 void MainWindow::showBusy() {
-    const bool busy = session_.isTracing() && session_.traceSeconds() > kBusyAfterSeconds && session_.tracedPixel();
+    const bool busy = session_.isTracing() && session_.traceSeconds() > kBusyAfterSeconds && !session_.tracedPixels().empty();
     for (const auto& [view, overlay] : busy_) {
         if (busy) {
-            overlay->showBusy(tr("Tracing pixel %1").arg(toQString(analysis::formatPixel(*session_.tracedPixel()))), session_.traceFraction(),
+            overlay->showBusy(tr("Tracing %1").arg(toQString(session_.tracedPixels().text())), session_.traceFraction(),
                               tr("Cancel"), [this] { session_.cancelTrace(); });
         } else if (overlay->isVisibleTo(view)) {
             overlay->clear();

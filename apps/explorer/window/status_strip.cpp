@@ -24,9 +24,23 @@ struct Badge {
     QString tip;
 };
 
-Badge badgeOf(const client::Trace& trace) {
-    if (trace.replays.empty()) return {QObject::tr("replay unknown"), "neutral", {}};
-    const Replay& replay = trace.replays.front();
+/// Of several pixels the worst decides the colour, and the number of exact ones is said.
+Badge badgeOf(const std::vector<Replay>& replays) {
+    const ReplayCounts counts = countReplays(replays);
+    const QString tip = QObject::tr("Of %1 replayed pixels %2 have the same bits as the image, %3 are equal to 1e-4, %4 differ, "
+                                    "%5 have nothing to be compared with.")
+                            .arg(counts.pixels).arg(counts.exact).arg(counts.close).arg(counts.different).arg(counts.unknown);
+    const QString sums = counts.sumsDiffer == 0 ? QString()
+                                                : QObject::tr(" The recorded estimates of %1 pixels do not add up to the pixel: the "
+                                                              "renderer records only a part.").arg(counts.sumsDiffer);
+    if (counts.unknown == counts.pixels) return {QObject::tr("replay unknown"), "neutral", tip + sums};
+    if (counts.exact == counts.pixels)
+        return {QObject::tr("replay exact, %1 pixels").arg(counts.pixels), counts.sumsDiffer ? "warning" : "success", tip + sums};
+    return {QObject::tr("replay exact: %1 of %2 pixels").arg(counts.exact).arg(counts.pixels),
+            counts.worst() == Verdict::different ? "error" : "warning", tip + sums};
+}
+
+Badge badgeOf(const Replay& replay) {
     const QString colors = QObject::tr("Rendered %1, replayed %2.")
                                .arg(toQString(analysis::formatColor(replay.rendered)), toQString(analysis::formatColor(replay.replayed)));
     const QString sums = replay.sums == SumCheck::differs
@@ -116,7 +130,7 @@ void StatusStrip::showActivity() {
     double fraction = -1;
     bool cancellable = true;
     if (session_.isTracing() && session_.traceSeconds() > kShowTraceAfterSeconds) {
-        text = tr("Tracing pixel %1").arg(toQString(analysis::formatPixel(*session_.tracedPixel())));
+        text = tr("Tracing %1").arg(toQString(session_.tracedPixels().text()));
         fraction = session_.traceFraction();
     } else if (session_.isSavingSession() || session_.isOpeningSession()) {
         text = session_.isSavingSession() ? tr("Saving the session") : tr("Opening the session");
@@ -144,13 +158,14 @@ void StatusStrip::showActivity() {
 }
 
 void StatusStrip::showReplay() {
-    const bool any = dataset_.current().size() == 1;
+    const bool any = !dataset_.current().empty();
     samples_->setVisible(any);
     verdict_->setVisible(any);
     if (!any) return;
-    const client::Trace& trace = *dataset_.current().front();
-    samples_->setText(tr("%1 spp").arg(trace.samplesPerPixel));
-    const Badge badge = badgeOf(trace);
+    std::vector<Replay> replays;
+    for (const auto& trace : dataset_.current()) replays.insert(replays.end(), trace->replays.begin(), trace->replays.end());
+    samples_->setText(tr("%1 spp").arg(dataset_.current().front()->samplesPerPixel));
+    const Badge badge = replays.size() == 1 ? badgeOf(replays.front()) : badgeOf(replays);
     verdict_->setText(badge.text);
     verdict_->setToolTip(badge.tip);
     if (verdict_->property("tone") != QVariant(badge.tone)) {

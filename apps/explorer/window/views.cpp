@@ -5,6 +5,7 @@
 
 #include "base/theme.h"
 #include "image/image_view.h"
+#include "image/region_panel.h"
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
@@ -42,6 +43,7 @@ Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme&
     views.vertex = new VertexTable(dataset, selection, theme);
     views.outliers = new OutlierPanel(dataset, selection, theme);
     views.filter = new FilterPanel(dataset, selection, theme);
+    views.region = new RegionPanel(dataset, selection, theme);
     views.history = new HistoryView(dataset, selection, theme);
     views.plots = {{QObject::tr("RGB"), "plots-rgb", new ContributionPlot(dataset, selection, theme)},
                    {QObject::tr("Luminance"), "plots-luminance", new LuminancePlot(dataset, selection, theme)},

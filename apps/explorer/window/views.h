@@ -15,6 +15,7 @@ class ImageView;
 class OutlierPanel;
 class PathPlot;
 class PathTree;
+class RegionPanel;
 class SceneView;
 class SurfacePanel;
 class Theme;
@@ -36,6 +37,7 @@ struct Views {
     HistoryView* history = nullptr;
     OutlierPanel* outliers = nullptr;
     FilterPanel* filter = nullptr;
+    RegionPanel* region = nullptr;
     std::vector<Plot> plots;
 
     static Views make(client::Dataset& dataset, client::Selection& selection, Theme& theme);
