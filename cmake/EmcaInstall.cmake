@@ -9,11 +9,16 @@ foreach(part core recorder query probe protocol server client analysis imageio)
     install(DIRECTORY libs/${part}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endif()
 endforeach()
+if(TARGET emca_explorer)
+  # What plugins of the explorer are built with: headers, and the function emca_add_plugin.
+  list(APPEND installed emca_explorer)
+  install(DIRECTORY apps/explorer/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
 install(TARGETS ${installed} EXPORT emcaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT emcaTargets NAMESPACE emca:: DESTINATION ${EMCA_PACKAGE_DIR})
 configure_package_config_file(cmake/emcaConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/emcaConfig.cmake
   INSTALL_DESTINATION ${EMCA_PACKAGE_DIR})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/emcaConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/emcaConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/emcaConfigVersion.cmake
-  cmake/EmcaOpenEXR.cmake DESTINATION ${EMCA_PACKAGE_DIR})
+  cmake/EmcaOpenEXR.cmake cmake/EmcaPlugin.cmake DESTINATION ${EMCA_PACKAGE_DIR})
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/emca/scenes)

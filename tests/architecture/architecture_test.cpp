@@ -32,7 +32,8 @@ const std::map<std::string, Rule>& rules() {
         {"libs/render", {{"core", "recorder", "imageio", "probe", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h"}}},
         {"apps/render", {{"core", "recorder", "imageio", "probe", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},
         {"apps/cli", {{"core", "client", "query", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
-        {"apps/explorer", {{"core", "client", "query", "analysis", "imageio", "probe"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h"}}},
+        {"apps/explorer", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h", "fcntl.h", "signal.h"}}},
+        {"plugins", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q"}}},
         {"python", {{"core", "recorder", "query", "server", "client", "analysis"}, {"pybind11/"}}},
         {"examples", {{"core", "recorder", "server", "client"}, {}}},
     };
@@ -101,6 +102,21 @@ TEST(Architecture, ARendererThatLinksTheServerSeesTheStandardLibraryOnly) {
             for (const auto& [angled, header] : includesOf(entry.path()))
                 EXPECT_TRUE(angled ? isStandard(header) : header.rfind("emca/", 0) == 0) << fs::relative(entry.path(), root) << ": " << header;
         }
+}
+
+/// The explorer's own plugins get what anybody's plugin gets.
+TEST(Architecture, PluginsSeeThePublicInterfaceOnly) {
+    const fs::path root = EMCA_SOURCE_DIR;
+    for (const char* folder : {"plugins", "apps/explorer/include"}) {
+        if (!fs::exists(root / folder)) GTEST_SKIP() << "There is no " << folder << ".";
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (!isSource(entry.path()) || isTest(entry.path())) continue;
+            for (const auto& [angled, header] : includesOf(entry.path())) {
+                const bool own = header.find('/') == std::string::npos;   // beside it
+                EXPECT_TRUE(angled || own || header.rfind("emca/", 0) == 0) << fs::relative(entry.path(), root) << ": " << header;
+            }
+        }
+    }
 }
 
 TEST(Architecture, VtkStaysInItsFolder) {

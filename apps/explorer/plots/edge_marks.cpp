@@ -93,7 +93,7 @@ class RowPainter {
     QColor colorOf(const Mark& mark) const {
         if (mark.selected) return c_.selected;
         if (hasWord(mark)) return c_.warning;
-        QColor color = content_.color;
+        QColor color = content_.colorOf(mark.point);
         if (!content_.selected.empty()) color.setAlphaF(0.4);
         return color;
     }

@@ -19,7 +19,7 @@ QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString
 }  // namespace
 
 MarginalHistogram::MarginalHistogram(const ScatterContent& content, const Theme& theme, QWidget* parent)
-    : QWidget(parent), content_(content), theme_(theme) {
+    : QWidget(parent), content_(content), theme_(theme), one_(tr("path")), several_(tr("paths")) {
     setMouseTracking(true);
     setFixedWidth(sizeHint().width());
 }
@@ -67,6 +67,11 @@ void MarginalHistogram::refreshSelected() {
     selected_ = std::move(fresh);
     dimmed_ = dimmed;
     update();
+}
+
+void MarginalHistogram::setCounted(const QString& one, const QString& several) {
+    one_ = one;
+    several_ = several;
 }
 
 void MarginalHistogram::setCaption(const QString& caption) {
@@ -185,7 +190,9 @@ void MarginalHistogram::mouseMoveEvent(QMouseEvent* event) {
     const QString range = integral_ && all_.upper(i) - all_.lower(i) == 1
                               ? QString::number(std::round((all_.lower(i) + all_.upper(i)) / 2))
                               : tr("%1 to %2").arg(from, to);
-    QString text = tr("%1: %2 paths").arg(range, grouped(all_.counts[i]));
+    const auto whole = static_cast<qsizetype>(std::round((all_.lower(i) + all_.upper(i)) / 2));
+    const QString name = !names_.isEmpty() && whole >= 0 && whole < names_.size() ? names_[int(whole)] : range;
+    QString text = tr("%1: %2 %3").arg(name, grouped(all_.counts[i]), all_.counts[i] == 1 ? one_ : several_);
     if (selected_.counts[i] > 0) text += tr(", %1 selected").arg(grouped(selected_.counts[i]));
     QToolTip::showText(globalPositionOf(*event), text, this);
 }

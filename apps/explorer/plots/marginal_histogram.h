@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QStringList>
 #include <QWidget>
 
 #include "plots/points_item.h"
@@ -19,6 +20,10 @@ class MarginalHistogram : public QWidget {
     void setIntegral(bool integral) { integral_ = integral; }
     /// What is counted, below the bars; empty: nothing.
     void setCaption(const QString& caption);
+    /// What the tool tips count; without it "paths".
+    void setCounted(const QString& one, const QString& several);
+    /// Words for the whole numbers from 0 on, in the tool tips.
+    void setNames(const QStringList& names) { names_ = names; }
     /// Where the canvas of the plot begins and ends, in this widget's coordinates.
     void setCanvas(int top, int height);
     /// The content changed.
@@ -26,6 +31,7 @@ class MarginalHistogram : public QWidget {
     /// Only which points are selected changed.
     void refreshSelected();
     const analysis::Histogram& bars() const { return all_; }
+    const analysis::Histogram& selectedBars() const { return selected_; }
     QSize sizeHint() const override { return {104, 100}; }
 
   signals:
@@ -51,7 +57,8 @@ class MarginalHistogram : public QWidget {
     const ScatterContent& content_;
     const Theme& theme_;
     bool integral_ = false;
-    QString caption_;
+    QString caption_, one_, several_;
+    QStringList names_;
     int top_ = 0, height_ = 0;
     int hovered_ = -1;
     double roomForCount_ = 40;

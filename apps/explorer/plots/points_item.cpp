@@ -26,6 +26,12 @@ bool ScatterContent::isSelected(std::uint32_t point) const {
     return std::binary_search(selected.begin(), selected.end(), point);
 }
 
+const QColor& ScatterContent::colorOf(std::uint32_t point) const {
+    for (const ScatterGroup& group : groups)
+        if (point < group.last) return group.color;
+    return color;
+}
+
 void GridItem::draw(QPainter* painter, const QwtScaleMap&, const QwtScaleMap&, const QRectF& canvas) const {
     const ThemeColors& c = theme_.colors();
     const PlotFrame& frame = content_.frame;
@@ -93,10 +99,30 @@ QPixmap dotStamp(const QColor& color, double radius, const QColor& halo, double 
     return pixmap;
 }
 
-QColor PointsItem::dotColor(bool dimmed) const {
+QColor PointsItem::dotColor(const QColor& color, bool dimmed) const {
     const std::size_t count = content_.xs.size();
     const double opaque = count <= 256 ? 0.95 : count <= 2048 ? 0.8 : 0.6;
-    return withAlpha(content_.color, dimmed ? opaque * 0.38 : opaque);
+    return withAlpha(color, dimmed ? opaque * 0.38 : opaque);
+}
+
+template <typename Draw>
+void PointsItem::forGroups(Draw draw) const {
+    if (content_.groups.empty()) return draw(ScatterGroup{0, static_cast<std::uint32_t>(content_.xs.size()), content_.color, false});
+    for (const ScatterGroup& group : content_.groups) draw(group);
+}
+
+void PointsItem::drawLines(QPainter& painter, bool dimmed) const {
+    painter.setBrush(Qt::NoBrush);
+    forGroups([&](const ScatterGroup& group) {
+        if (!group.connected) return;
+        painter.setPen(QPen(withAlpha(group.color, dimmed ? 0.3 : 0.55), 1.25));
+        std::optional<QPointF> before;   // nothing: a point before the next that is not on the canvas
+        for (std::uint32_t i = group.first; i < group.last; ++i) {
+            const auto at = content_.frame.row(content_.ys[i]) == PlotRow::nan ? std::nullopt : content_.frame.place(content_.xs[i], content_.ys[i]);
+            if (before && at) painter.drawLine(*before, *at);
+            before = at;
+        }
+    });
 }
 
 template <typename Draw>
@@ -107,10 +133,13 @@ void PointsItem::forInside(std::uint32_t point, Draw draw) const {
 
 void PointsItem::drawDots(QPainter& painter, bool dimmed) const {
     const double r = radius(content_.xs.size());
+    drawLines(painter, dimmed);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(dotColor(dimmed));
-    for (std::uint32_t i = 0; i < content_.xs.size(); ++i)
-        forInside(i, [&](QPointF at) { painter.drawEllipse(at, r, r); });
+    forGroups([&](const ScatterGroup& group) {
+        painter.setBrush(dotColor(group.color, dimmed));
+        for (std::uint32_t i = group.first; i < group.last; ++i)
+            forInside(i, [&](QPointF at) { painter.drawEllipse(at, r, r); });
+    });
 }
 
 void PointsItem::drawLayer(QPainter& painter) const {
@@ -142,9 +171,12 @@ QImage PointsItem::dotsImage(bool dimmed, double ratio) const {
     QPainter painter(&image);
     painter.setRenderHint(QPainter::Antialiasing);
     const double r = radius(content_.xs.size()), half = std::ceil(r + 1.5);
-    const QPixmap dot = dotStamp(dotColor(dimmed), r, {}, ratio);
-    for (std::uint32_t i = 0; i < content_.xs.size(); ++i)
-        forInside(i, [&](QPointF at) { painter.drawPixmap(QPointF(at.x() - half, at.y() - half), dot); });
+    drawLines(painter, dimmed);
+    forGroups([&](const ScatterGroup& group) {
+        const QPixmap dot = dotStamp(dotColor(group.color, dimmed), r, {}, ratio);
+        for (std::uint32_t i = group.first; i < group.last; ++i)
+            forInside(i, [&](QPointF at) { painter.drawPixmap(QPointF(at.x() - half, at.y() - half), dot); });
+    });
     return image;
 }
 

@@ -12,12 +12,20 @@ namespace emca::explorer {
 
 class Theme;
 
+/// Points [first, last) of one colour.
+struct ScatterGroup {
+    std::uint32_t first = 0, last = 0;
+    QColor color;
+    bool connected = false;  ///< a line through its points, in their order
+};
+
 /// What a scatter plot shows, and how it lies on the canvas.
 struct ScatterContent {
     std::vector<double> xs, ys;           ///< equally many
     std::vector<std::uint32_t> selected;  ///< points, ascending
     std::optional<std::uint32_t> current;
-    QColor color;
+    QColor color;                         ///< of points and histogram
+    std::vector<ScatterGroup> groups;     ///< ascending; where there are some, points have their colours
     PlotFrame frame;
     std::vector<analysis::Tick> xTicks, yTicks;
     std::optional<double> mean;  ///< of ys, where it means something
@@ -25,6 +33,7 @@ struct ScatterContent {
 
     bool dense() const { return xs.size() > analysis::kDensityThreshold; }
     bool isSelected(std::uint32_t point) const;
+    const QColor& colorOf(std::uint32_t point) const;
 };
 
 /// Grid, edge rows and mean of a scatter plot: what lies below the points.
@@ -51,7 +60,11 @@ class PointsItem : public QwtPlotItem {
     std::uint64_t drawnLayers() const { return drawnLayers_; }
 
   private:
-    QColor dotColor(bool dimmed) const;
+    QColor dotColor(const QColor& color, bool dimmed) const;
+    /// Calls draw with each group, or with all points as one.
+    template <typename Draw>
+    void forGroups(Draw draw) const;
+    void drawLines(QPainter& painter, bool dimmed) const;
     /// Calls draw with the place of a point that is inside the ranges.
     template <typename Draw>
     void forInside(std::uint32_t point, Draw draw) const;

@@ -41,6 +41,18 @@ std::vector<analysis::Tick> ticksOf(const ValueRange& range, bool integral, doub
     return ticks;
 }
 
+/// Words in the place of numbers; long ones are cut.
+void nameTicks(std::vector<analysis::Tick>& ticks, const QStringList& names, const Theme& theme, std::vector<EdgeLabel>& labels) {
+    if (names.isEmpty()) return;
+    constexpr int kWidest = 150;  // pixels
+    const QFontMetrics metrics(theme.smallNumberFont());
+    for (analysis::Tick& tick : ticks) {
+        tick.label.clear();
+        if (tick.value >= 0 && tick.value < names.size())
+            labels.push_back({tick.value, metrics.elidedText(names[int(tick.value)], Qt::ElideRight, kWidest), {}});
+    }
+}
+
 }  // namespace
 
 ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
@@ -86,8 +98,15 @@ ScatterPlot::~ScatterPlot() = default;
 
 QWidget* ScatterPlot::canvas() const { return plot_->canvas(); }
 
+void ScatterPlot::colorGroups() {
+    content_.groups.clear();
+    for (const Group& group : groups_) content_.groups.push_back({group.first, group.last, theme_.colors().*group.color, group.connected});
+    if (!groups_.empty()) ++content_.version;
+}
+
 void ScatterPlot::restyle() {
     content_.color = theme_.colors().*role_;
+    colorGroups();
     QPalette ground = palette();
     ground.setColor(QPalette::Window, theme_.colors().ground);
     setPalette(ground);
@@ -101,7 +120,10 @@ void ScatterPlot::restyle() {
 void ScatterPlot::setAxes(const PlotAxis& x, const PlotAxis& y) {
     xAxis_ = x;
     yAxis_ = y;
-    histogram_->setIntegral(y.integral);
+    xAxis_.integral |= !x.names.isEmpty();
+    yAxis_.integral |= !y.names.isEmpty();
+    histogram_->setIntegral(yAxis_.integral);
+    histogram_->setNames(y.names);
     findRanges();
     restyle();
 }
@@ -115,7 +137,11 @@ void ScatterPlot::setDescription(std::function<QString(std::uint32_t)> descripti
     description_ = std::move(description);
 }
 
-void ScatterPlot::setPoints(std::vector<double> xs, std::vector<double> ys) {
+void ScatterPlot::setPoints(std::vector<double> xs, std::vector<double> ys) { setPoints(std::move(xs), std::move(ys), {}); }
+
+void ScatterPlot::setPoints(std::vector<double> xs, std::vector<double> ys, std::vector<Group> groups) {
+    groups_ = std::move(groups);
+    colorGroups();
     content_.xs = std::move(xs);
     content_.ys = std::move(ys);
     content_.xs.resize(content_.ys.size());
@@ -148,6 +174,7 @@ void ScatterPlot::setSelected(std::vector<std::uint32_t> points, std::optional<s
         overlay_->update(changed);
     }
     histogram_->refreshSelected();
+    emit contentChanged();
 }
 
 void ScatterPlot::replotCanvas() {
@@ -268,6 +295,7 @@ void ScatterPlot::layoutFrame(int roomAtTheRight) {
         if (frame.x().pixel(tick.value) + metrics.horizontalAdvance(tickText(tick.label)) / 2.0 > size.width() - roomAtTheRight)
             tick.label.clear();
     std::vector<EdgeLabel> edges;
+    nameTicks(content_.yTicks, yAxis_.names, theme_, edges);
     const auto edge = [&](PlotRow row, const QString& text, const QColor& color) {
         edges.push_back({frame.y().value(frame.center(row)), text, color});
     };
@@ -288,6 +316,7 @@ void ScatterPlot::refresh() {
     overlay_->setGeometry(plot_->canvas()->rect());
     overlay_->update();
     showHovered();
+    emit contentChanged();
 }
 
 void ScatterPlot::showHovered() {

@@ -35,6 +35,14 @@ class ScatterPlot : public QWidget {
     void setDescription(std::function<QString(std::uint32_t point)> description);
     /// Keeps a zoom if points are left inside it.
     void setPoints(std::vector<double> xs, std::vector<double> ys);
+    /// Points [first, last) of one colour, which a line may connect.
+    struct Group {
+        std::uint32_t first = 0, last = 0;
+        ColorRole color = &ThemeColors::data;
+        bool connected = false;
+    };
+    /// The same with points in groups, which ascend.
+    void setPoints(std::vector<double> xs, std::vector<double> ys, std::vector<Group> groups);
     void setSelected(std::vector<std::uint32_t> points, std::optional<std::uint32_t> current);
     /// Marked by another view or by the mouse in it.
     void setHovered(std::optional<std::uint32_t> point);
@@ -79,6 +87,8 @@ class ScatterPlot : public QWidget {
     void zoomResetRequested();
     /// The person zoomed or moved; x may have changed.
     void zoomChanged();
+    /// Points, ranges, size or selection changed: what stands beside the canvas is drawn anew.
+    void contentChanged();
     void axisWidthChanged();
 
   protected:
@@ -90,6 +100,7 @@ class ScatterPlot : public QWidget {
   private:
     enum class Drag { none, pressed, rectangle, moving };
     void restyle();
+    void colorGroups();
     void findRanges();   ///< default ranges of the points
     void layoutFrame();  ///< frame, ticks and axes for the current ranges and size
     void layoutFrame(int roomAtTheRight);
@@ -109,6 +120,7 @@ class ScatterPlot : public QWidget {
     ColorRole role_ = &ThemeColors::data;
     std::function<QString(std::uint32_t)> description_;
     ScatterContent content_;
+    std::vector<Group> groups_;
     analysis::ValueRange xFull_, yFull_;
     std::optional<analysis::ValueRange> xZoom_, yZoom_;
     bool log_ = false, logAllowed_ = true, meanShown_ = true, xLabels_ = true, layingOut_ = false;

@@ -21,14 +21,19 @@ set(EMCA_PLOTS_SOURCES
   plots/plot_frame.h
   plots/plot_overlay.cpp
   plots/plot_overlay.h
+  plots/plot_widget.cpp
+  plots/plot_widget.h
   plots/points_item.cpp
   plots/points_item.h
   plots/scatter_plot.cpp
   plots/scatter_plot.h
   plots/scatter_plot_mouse.cpp
+  plots/top_histogram.cpp
+  plots/top_histogram.h
 )
 set(EMCA_PLOTS_TESTS
   plots/path_plot_test.cpp
   plots/plot_axis_test.cpp
   plots/plot_frame_test.cpp
+  plots/plot_widget_test.cpp
 )

@@ -1,0 +1,103 @@
+#include "plots/top_histogram.h"
+
+#include <QLocale>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+
+#include "base/qt_compat.h"
+#include "base/theme.h"
+#include "emca/analysis/format.h"
+
+namespace emca::explorer {
+
+TopHistogram::TopHistogram(const ScatterContent& content, const Theme& theme, QWidget* parent)
+    : QWidget(parent), content_(content), theme_(theme) {
+    setMouseTracking(true);
+    setFixedHeight(sizeHint().height());
+}
+
+void TopHistogram::refresh(int left) {
+    left_ = left;
+    const AxisFrame& x = content_.frame.x();
+    analysis::ValueRange range = x.range;
+    std::size_t bins = std::clamp<std::size_t>(static_cast<std::size_t>((x.end - x.start) / 6), 1, 64);
+    if (integral_) {
+        const double first = std::ceil(range.min), last = std::max(first, std::floor(range.max));
+        bins = static_cast<std::size_t>(std::clamp(last - first + 1, 1.0, double(bins)));
+        const double step = std::ceil((last - first + 1) / double(bins));
+        range = {first - 0.5, first - 0.5 + step * double(bins), false};
+    }
+    all_ = analysis::histogram(content_.xs, range, bins);
+    std::vector<double> chosen;
+    for (const std::uint32_t point : content_.selected) chosen.push_back(content_.xs[point]);
+    selected_ = analysis::histogram(chosen, range, bins);
+    update();
+}
+
+QRectF TopHistogram::barRect(std::size_t bar, std::uint64_t count) const {
+    const AxisFrame& x = content_.frame.x();
+    const double most = double(std::max<std::uint64_t>(all_.largest(), 1)), room = height() - 6;
+    const double high = count == 0 ? 0 : std::max(2.0, room * double(count) / most);
+    return {QPointF(left_ + x.pixel(all_.lower(bar)) + 0.5, height() - 1 - high), QPointF(left_ + x.pixel(all_.upper(bar)) - 0.5, height() - 1)};
+}
+
+void TopHistogram::paintEvent(QPaintEvent*) {
+    const ThemeColors& c = theme_.colors();
+    QPainter painter(this);
+    painter.fillRect(rect(), c.ground);
+    painter.setPen(QPen(c.grid, 1));
+    painter.drawLine(left_, height() - 1, left_ + int(content_.frame.canvas().width()), height() - 1);
+    painter.setRenderHint(QPainter::Antialiasing);
+    QColor color = content_.color;
+    color.setAlphaF(content_.selected.empty() ? 0.75 : 0.4);
+    for (std::size_t bar = 0; bar < all_.binCount(); ++bar) {
+        if (all_.counts[bar] == 0) continue;
+        painter.fillRect(barRect(bar, all_.counts[bar]), int(bar) == hovered_ ? c.hover : color);
+        if (selected_.counts[bar] > 0) painter.fillRect(barRect(bar, selected_.counts[bar]), c.selected);
+    }
+}
+
+int TopHistogram::barAt(QPointF position) const {
+    for (std::size_t bar = 0; bar < all_.binCount(); ++bar) {
+        const QRectF rect = barRect(bar, 1);
+        if (position.x() >= rect.left() && position.x() < rect.right() + 1 && all_.counts[bar] > 0) return int(bar);
+    }
+    return -1;
+}
+
+void TopHistogram::mousePressEvent(QMouseEvent* event) {
+    const int bar = event->button() == Qt::LeftButton ? barAt(positionOf(*event)) : -1;
+    if (bar < 0) return QWidget::mousePressEvent(event);
+    const double low = all_.lower(std::size_t(bar)), high = all_.upper(std::size_t(bar));
+    const bool last = std::size_t(bar) + 1 == all_.binCount();
+    QVector<quint32> points;
+    for (std::uint32_t i = 0; i < content_.xs.size(); ++i) {
+        const double x = content_.xs[i];
+        if (x >= low && (x < high || (last && x <= high))) points.append(i);
+    }
+    emit barClicked(points, event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier));
+}
+
+void TopHistogram::mouseMoveEvent(QMouseEvent* event) {
+    const int bar = barAt(positionOf(*event));
+    if (bar != hovered_) {
+        hovered_ = bar;
+        update();
+    }
+    if (bar < 0) return QToolTip::hideText();
+    const auto i = std::size_t(bar);
+    QToolTip::showText(globalPositionOf(*event),
+                       tr("%1 to %2: %3").arg(toQString(analysis::formatNumber(all_.lower(i))), toQString(analysis::formatNumber(all_.upper(i))),
+                                              QLocale(QLocale::English).toString(qulonglong(all_.counts[i]))),
+                       this);
+}
+
+void TopHistogram::leaveEvent(QEvent*) {
+    hovered_ = -1;
+    update();
+}
+
+}  // namespace emca::explorer

@@ -1,0 +1,28 @@
+set(EMCA_PLUGIN_SOURCES
+  plugin/host_context.cpp
+  plugin/host_context.h
+  plugin/plugin_guard.cpp
+  plugin/plugin_guard.h
+  plugin/plugin_host.cpp
+  plugin/plugin_host.h
+  plugin/plugin_library.cpp
+  plugin/plugin_library.h
+  plugin/plugin_manager.cpp
+  plugin/plugin_manager.h
+  plugin/plugin_probe.cpp
+  plugin/plugin_probe.h
+  plugin/plugin_services.h
+  plugin/plugin_view.cpp
+  plugin/plugin_view.h
+  plugin/plugin_watch.cpp
+  plugin/plugin_watch.h
+  plugin/plugins_panel.cpp
+  plugin/plugins_panel.h
+  plugin/probe_steps.cpp
+  plugin/probe_steps.h
+)
+set(EMCA_PLUGIN_TESTS
+  plugin/plugin_test.cpp
+)
+set(EMCA_PLUGIN_GL_TESTS
+)
