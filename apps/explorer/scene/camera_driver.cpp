@@ -10,6 +10,19 @@ constexpr double kFlightSeconds = 0.33;
 constexpr double kStepsPerSecond = 14;    ///< of a key that is held
 constexpr std::size_t kHistory = 64;
 
+/// Letters fly as in games.
+int arrowOf(int key) {
+    switch (key) {
+        case Qt::Key_W: return Qt::Key_Up;
+        case Qt::Key_S: return Qt::Key_Down;
+        case Qt::Key_A: return Qt::Key_Left;
+        case Qt::Key_D: return Qt::Key_Right;
+        case Qt::Key_E: return Qt::Key_PageUp;
+        case Qt::Key_Q: return Qt::Key_PageDown;
+        default: return key;
+    }
+}
+
 }  // namespace
 
 CameraDriver::CameraDriver(QObject* parent) : QObject(parent) {
@@ -71,6 +84,7 @@ void CameraDriver::begin() {
 }
 
 bool CameraDriver::pressKey(int key, bool fast) {
+    key = arrowOf(key);
     if (key != Qt::Key_Up && key != Qt::Key_Down && key != Qt::Key_Left && key != Qt::Key_Right &&
         key != Qt::Key_PageUp && key != Qt::Key_PageDown)
         return false;
@@ -90,7 +104,7 @@ bool CameraDriver::pressKey(int key, bool fast) {
     return true;
 }
 
-void CameraDriver::releaseKey(int key) { keys_.remove(key); }
+void CameraDriver::releaseKey(int key) { keys_.remove(arrowOf(key)); }
 
 void CameraDriver::releaseAllKeys() { keys_.clear(); }
 

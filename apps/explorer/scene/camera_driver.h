@@ -35,7 +35,7 @@ class CameraDriver : public QObject {
 
     /// World distance of one step of a key.
     void setStep(double step) { step_ = step; }
-    /// Arrow keys and page keys; true if the key is one of these. The first step comes at once.
+    /// Arrow keys and page keys, or W A S D and E Q in their place; true if the key is one of these. The first step comes at once.
     bool pressKey(int key, bool fast);
     void releaseKey(int key);
     void releaseAllKeys();

@@ -58,7 +58,7 @@ TEST(CameraDriver, heldKeysFlyUntilReleased) {
     CameraDriver driver;
     driver.moveTo(kHere);
     driver.setStep(0.1);
-    EXPECT_FALSE(driver.pressKey(Qt::Key_A, false));
+    EXPECT_FALSE(driver.pressKey(Qt::Key_B, false));
     EXPECT_TRUE(driver.pressKey(Qt::Key_Up, false));
     EXPECT_NEAR(driver.pose().position.z, 4.9, 1e-12);   // the first step comes at once
     EXPECT_TRUE(QTest::qWaitFor([&] { return driver.pose().position.z < 4.7; }, 5000));
@@ -67,6 +67,20 @@ TEST(CameraDriver, heldKeysFlyUntilReleased) {
     driver.back();
     driver.setAnimated(false);
     EXPECT_EQ(driver.pose(), kHere);
+}
+
+TEST(CameraDriver, LettersFlyAsArrowsDo) {
+    for (const auto& [letter, arrow] : {std::pair(Qt::Key_W, Qt::Key_Up), std::pair(Qt::Key_S, Qt::Key_Down), std::pair(Qt::Key_A, Qt::Key_Left),
+                                        std::pair(Qt::Key_D, Qt::Key_Right), std::pair(Qt::Key_E, Qt::Key_PageUp), std::pair(Qt::Key_Q, Qt::Key_PageDown)}) {
+        CameraDriver a, b;
+        for (CameraDriver* driver : {&a, &b}) driver->moveTo(kHere);
+        EXPECT_TRUE(a.pressKey(letter, true));
+        EXPECT_TRUE(b.pressKey(arrow, true));
+        EXPECT_EQ(a.pose(), b.pose());
+        EXPECT_NE(a.pose(), kHere);
+        a.releaseKey(letter);
+        EXPECT_TRUE(QTest::qWaitFor([&] { return !a.isMoving(); }, 5000));
+    }
 }
 
 }  // namespace

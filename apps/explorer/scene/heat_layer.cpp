@@ -168,6 +168,19 @@ void HeatLayer::setCoarse(bool coarse) {
     show();
 }
 
+void HeatLayer::setClip(const ClipPlane& clip) {
+    if (clip.isOn()) {
+        plane_->SetNormal(clip.normal.x, clip.normal.y, clip.normal.z);
+        plane_->SetOrigin(clip.normal.x * clip.offset, clip.normal.y * clip.offset, clip.normal.z * clip.offset);
+    }
+    if (clip.isOn() == clipped_) return;
+    clipped_ = clip.isOn();
+    for (FaceMapper* mapper : {mapper_.Get(), backMapper_.Get()}) {
+        if (clipped_) mapper->AddClippingPlane(plane_);
+        else mapper->RemoveAllClippingPlanes();
+    }
+}
+
 void HeatLayer::apply(const SceneOptions& options, float opacity, const ThemeColors&) {
     opacity_ = std::clamp(opacity, 0.f, 1.f);
     const bool opaque = opacity_ >= 0.995f, fade = options.backFaces == BackFaces::fade;

@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -32,6 +33,7 @@ class HeatLayer {
     /// \param opacity  in [0, 1]
     void apply(const SceneOptions& options, float opacity, const ThemeColors& colors);
     void setCoarse(bool coarse);
+    void setClip(const ClipPlane& clip);
     bool hasStandIn() const { return surface_ && !surface_->coarseTriangles.empty(); }
     bool isShown() const { return shown_; }
 
@@ -45,8 +47,9 @@ class HeatLayer {
     vtkSmartPointer<vtkPolyData> full_, standIn_;
     std::shared_ptr<FaceColors> fullColors_, coarseColors_;
     vtkSmartPointer<FaceMapper> mapper_, backMapper_;
+    vtkNew<vtkPlane> plane_;
     vtkNew<vtkActor> actor_, backActor_;   ///< the second one only for faded back faces of opaque surfaces
-    bool shown_ = false, coarse_ = false, separateBack_ = false;
+    bool shown_ = false, coarse_ = false, separateBack_ = false, clipped_ = false;
     float opacity_ = 1;
 };
 

@@ -4,77 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <unordered_map>
+
+#include "mesh_welding.h"
 
 namespace emca::explorer {
 namespace {
-
-using Cell = std::array<std::int64_t, 3>;
-
-struct CellHash {
-    std::size_t operator()(const Cell& c) const {
-        std::uint64_t h = static_cast<std::uint64_t>(c[0]);
-        h = h * 0x9e3779b97f4a7c15ull ^ static_cast<std::uint64_t>(c[1]);
-        h = h * 0x9e3779b97f4a7c15ull ^ static_cast<std::uint64_t>(c[2]);
-        return static_cast<std::size_t>(h ^ (h >> 29));
-    }
-};
-
-/// One mesh with positions joined that are equal but for rounding (a millionth of its size), and the faces around each.
-struct Welded {
-    std::vector<Vec3f> positions;
-    std::vector<Triangle> triangles;
-    std::vector<Vec3f> faceNormals;          ///< length: twice the area
-    std::vector<std::uint32_t> firstFace;    ///< per position + 1, into `faces`
-    std::vector<std::uint32_t> faces;
-};
-
-Welded weld(const Mesh& mesh, std::uint64_t& skipped) {
-    Welded w;
-    std::vector<std::uint32_t> welded(mesh.positions.size());
-    BoundingBox box;
-    for (const Vec3f& p : mesh.positions)
-        if (isFinite(p)) box.extend(p);
-    const double scale = 1e6 / std::max(double(box.diagonal()), 1e-30);
-    const auto cellOf = [&](Vec3f p) {
-        return Cell{std::llround((double(p.x) - double(box.min.x)) * scale), std::llround((double(p.y) - double(box.min.y)) * scale),
-                    std::llround((double(p.z) - double(box.min.z)) * scale)};
-    };
-    std::unordered_map<Cell, std::uint32_t, CellHash> places;
-    places.reserve(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        if (!isFinite(mesh.positions[i])) continue;
-        const auto [place, isNew] = places.try_emplace(cellOf(mesh.positions[i]), static_cast<std::uint32_t>(w.positions.size()));
-        if (isNew) w.positions.push_back(mesh.positions[i]);
-        welded[i] = place->second;
-    }
-    w.triangles.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        const std::size_t n = mesh.positions.size();
-        if (t[0] >= n || t[1] >= n || t[2] >= n || !isFinite(mesh.positions[t[0]]) || !isFinite(mesh.positions[t[1]]) ||
-            !isFinite(mesh.positions[t[2]])) {
-            ++skipped;
-            continue;
-        }
-        const Triangle joined{welded[t[0]], welded[t[1]], welded[t[2]]};
-        const Vec3f a = w.positions[joined[0]], ab = w.positions[joined[1]] - a, ac = w.positions[joined[2]] - a;
-        const Vec3f normal = cross(ab, ac);
-        // Slivers, as at the poles of a sphere: nothing to see, and a normal of rounding errors makes false creases.
-        const float longest = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
-        if (!(length(normal) > 1e-5f * longest)) continue;
-        w.triangles.push_back(joined);
-        w.faceNormals.push_back(normal);
-    }
-    w.firstFace.assign(w.positions.size() + 1, 0);
-    for (const Triangle& t : w.triangles)
-        for (const std::uint32_t v : t) ++w.firstFace[v + 1];
-    for (std::size_t v = 0; v < w.positions.size(); ++v) w.firstFace[v + 1] += w.firstFace[v];
-    w.faces.resize(w.firstFace.back());
-    std::vector<std::uint32_t> cursor(w.firstFace.begin(), w.firstFace.end() - 1);
-    for (std::uint32_t f = 0; f < w.triangles.size(); ++f)
-        for (const std::uint32_t v : w.triangles[f]) w.faces[cursor[v]++] = f;
-    return w;
-}
 
 bool smoothTogether(Vec3f a, Vec3f b) {
     static const float kCosine = std::cos(kCreaseDegrees * std::numbers::pi_v<float> / 180);
@@ -119,26 +53,26 @@ void append(const Welded& w, std::array<std::uint8_t, 3> color, ShadedTriangles&
 
 /// Borders and creases.
 void appendEdges(const Welded& w, std::vector<Edge>& out) {
-    struct Side { std::uint64_t key; std::uint32_t face; };
-    std::vector<Side> sides;
-    sides.reserve(3 * w.triangles.size());
-    for (std::uint32_t f = 0; f < w.triangles.size(); ++f)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint64_t a = w.triangles[f][c], b = w.triangles[f][(c + 1) % 3];
-            sides.push_back({std::min(a, b) << 32 | std::max(a, b), f});
-        }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key < b.key; });
     BoundingBox box;
     for (const Vec3f& p : w.positions) box.extend(p);
     const float shortest = 1e-4f * box.diagonal();   // below a pixel even when the mesh fills the view
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].key == sides[i].key) ++end;
-        const bool border = end - i == 1;
-        if (border || (end - i == 2 && !smoothTogether(w.faceNormals[sides[i].face], w.faceNormals[sides[i + 1].face])))
-            if (const Edge e{w.positions[sides[i].key >> 32], w.positions[sides[i].key & 0xffffffffu]}; length(e.to - e.from) > shortest)
-                out.push_back(e);
-        i = end;
+    // Edges from each position to later ones, from the faces around it: a few at a time, however many there are.
+    struct Side { std::uint32_t to, face; };
+    std::vector<Side> sides;
+    for (std::uint32_t from = 0; from < w.positions.size(); ++from) {
+        sides.clear();
+        for (std::uint32_t i = w.firstFace[from]; i < w.firstFace[from + 1]; ++i)
+            for (const std::uint32_t to : w.triangles[w.faces[i]])
+                if (to > from) sides.push_back({to, w.faces[i]});
+        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.to != b.to ? a.to < b.to : a.face < b.face; });
+        for (std::size_t i = 0; i < sides.size();) {
+            std::size_t end = i + 1;
+            while (end < sides.size() && sides[end].to == sides[i].to) ++end;
+            const bool border = end - i == 1;
+            if (border || (end - i == 2 && !smoothTogether(w.faceNormals[sides[i].face], w.faceNormals[sides[i + 1].face])))
+                if (const Edge e{w.positions[from], w.positions[sides[i].to]}; length(e.to - e.from) > shortest) out.push_back(e);
+            i = end;
+        }
     }
 }
 

@@ -8,7 +8,6 @@
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
-#include <vtkQuadricClustering.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProgram.h>
 #include <vtkTypeInt32Array.h>
@@ -17,57 +16,45 @@
 #include <algorithm>
 #include <string>
 
+#include "mesh_decimation.h"
+
 namespace emca::explorer {
 namespace {
 
-constexpr std::size_t kStandInAbove = 200000;  ///< triangles; fewer are drawn fast enough while the camera moves
+// Triangles; scenes with fewer are drawn fast enough without that stand-in.
+constexpr std::size_t kCoarseAbove = 200000, kCoarse = 100000;
+constexpr std::size_t kMediumAbove = 2500000, kMedium = 1000000;
 
+/// Looks at the memory of `t`, which must outlive the result.
 vtkSmartPointer<vtkPolyData> polyDataOf(const ShadedTriangles& t) {
     if (t.triangles.empty()) return nullptr;
+    static_assert(sizeof(Vec3f) == 3 * sizeof(float) && sizeof(Triangle) == 3 * sizeof(vtkTypeInt32));
     const auto n = static_cast<vtkIdType>(t.positions.size());
-    const auto copy = [&](const std::vector<Vec3f>& values, const char* name) {
+    const auto look = [n](const std::vector<Vec3f>& values, const char* name) {
         auto array = vtkSmartPointer<vtkFloatArray>::New();
         array->SetName(name);
         array->SetNumberOfComponents(3);
-        array->SetNumberOfTuples(n);
-        float* out = array->GetPointer(0);
-        for (const Vec3f& v : values) *out++ = v.x, *out++ = v.y, *out++ = v.z;
+        array->SetArray(const_cast<float*>(&values.front().x), 3 * n, 1);
         return array;
     };
     vtkNew<vtkUnsignedCharArray> colors;
     colors->SetName("color");
     colors->SetNumberOfComponents(3);
-    colors->SetNumberOfTuples(n);
-    std::copy_n(t.colors.front().data(), 3 * t.colors.size(), colors->GetPointer(0));
-    vtkNew<vtkTypeInt32Array> offsets, connectivity;
+    colors->SetArray(const_cast<unsigned char*>(t.colors.front().data()), 3 * n, 1);
+    vtkNew<vtkTypeInt32Array> offsets, corners;
     offsets->SetNumberOfValues(static_cast<vtkIdType>(t.triangles.size() + 1));
-    connectivity->SetNumberOfValues(static_cast<vtkIdType>(3 * t.triangles.size()));
     for (std::size_t i = 0; i <= t.triangles.size(); ++i) offsets->GetPointer(0)[i] = static_cast<vtkTypeInt32>(3 * i);
-    vtkTypeInt32* corner = connectivity->GetPointer(0);
-    for (const Triangle& triangle : t.triangles)
-        for (const std::uint32_t v : triangle) *corner++ = static_cast<vtkTypeInt32>(v);
+    corners->SetArray(reinterpret_cast<vtkTypeInt32*>(const_cast<std::uint32_t*>(t.triangles.front().data())),
+                      static_cast<vtkIdType>(3 * t.triangles.size()), 1);
     vtkNew<vtkPoints> points;
-    points->SetData(copy(t.positions, "position"));
+    points->SetData(look(t.positions, "position"));
     vtkNew<vtkCellArray> cells;
-    cells->SetData(offsets, connectivity);
+    cells->SetData(offsets, corners);
     auto data = vtkSmartPointer<vtkPolyData>::New();
     data->SetPoints(points);
     data->SetPolys(cells);
-    data->GetPointData()->SetNormals(copy(t.normals, "normal"));
+    data->GetPointData()->SetNormals(look(t.normals, "normal"));
     data->GetPointData()->SetScalars(colors);
-    return data;
-}
-
-vtkSmartPointer<vtkPolyData> standInOf(vtkPolyData* full) {
-    vtkNew<vtkQuadricClustering> cluster;
-    cluster->SetInputData(full);
-    cluster->SetNumberOfDivisions(96, 96, 96);
-    cluster->AutoAdjustNumberOfDivisionsOff();
-    cluster->CopyCellDataOff();
-    cluster->Update();
-    auto data = vtkSmartPointer<vtkPolyData>::New();
-    data->ShallowCopy(cluster->GetOutput());
-    data->GetPointData()->Initialize();
     return data;
 }
 
@@ -80,12 +67,15 @@ std::shared_ptr<PreparedMeshes> prepareMeshes(std::span<const Mesh> meshes, cons
                                            static_cast<std::uint8_t>(base.blue())};
     prepared->geometry = makeMeshGeometry(meshes, clay, cancel);
     if (!ownColors) std::ranges::fill(prepared->geometry.surfaces.colors, clay);
-    prepared->surfaces = polyDataOf(prepared->geometry.surfaces);
+    const ShadedTriangles& full = prepared->geometry.surfaces;
+    const auto needs = [&](std::size_t above) { return full.triangles.size() > above && !(cancel && *cancel); };
+    if (needs(kMediumAbove)) prepared->mediumTriangles = standIn(full, kMedium, cancel);
+    const bool fromMedium = !prepared->mediumTriangles.triangles.empty();
+    if (needs(kCoarseAbove)) prepared->coarseTriangles = standIn(fromMedium ? prepared->mediumTriangles : full, kCoarse, cancel);
+    prepared->surfaces = polyDataOf(full);
     prepared->emitters = polyDataOf(prepared->geometry.emitters);
-    if (prepared->geometry.surfaces.triangles.size() > kStandInAbove && !(cancel && *cancel))
-        prepared->standIn = standInOf(prepared->surfaces);
-    prepared->geometry.surfaces = {};   // VTK has its own copy now
-    prepared->geometry.emitters = {};
+    prepared->medium = polyDataOf(prepared->mediumTriangles);
+    prepared->coarse = polyDataOf(prepared->coarseTriangles);
     return prepared;
 }
 
@@ -134,39 +124,52 @@ uniform vec4 clayMode;   // back opacity, glow, opaque, orthographic
 
 vtkStandardNewMacro(MeshLayer::ClayMapper)
 
-MeshLayer::MeshLayer(vtkRenderer& surfaces, vtkRenderer& strokes)
-    : renderer_(surfaces), clay_(vtkSmartPointer<ClayMapper>::New()), glow_(vtkSmartPointer<ClayMapper>::New()),
-      edges_(strokes), emitterEdges_(strokes) {
-    glow_->glow = 1;
-    for (auto [actor, mapper] : {std::pair(clayActor_.Get(), clay_.Get()), std::pair(glowActor_.Get(), glow_.Get())}) {
-        mapper->ScalarVisibilityOn();
-        mapper->SetColorModeToDirectScalars();
-        actor->SetMapper(mapper);
-        actor->PickableOff();
-        actor->VisibilityOff();
-        renderer_.AddActor(actor);
+MeshLayer::MeshLayer(vtkRenderer& surfaces, vtkRenderer& strokes) : renderer_(surfaces), edges_(strokes), emitterEdges_(strokes) {
+    for (Part& part : parts_) {
+        part.mapper = vtkSmartPointer<ClayMapper>::New();
+        part.mapper->ScalarVisibilityOn();
+        part.mapper->SetColorModeToDirectScalars();
+        part.actor->SetMapper(part.mapper);
+        part.actor->PickableOff();
+        part.actor->VisibilityOff();
+        renderer_.AddActor(part.actor);
     }
+    parts_.back().mapper->glow = 1;
 }
 
 MeshLayer::~MeshLayer() {
-    renderer_.RemoveActor(clayActor_);
-    renderer_.RemoveActor(glowActor_);
+    for (Part& part : parts_) renderer_.RemoveActor(part.actor);
 }
 
 void MeshLayer::setMeshes(std::shared_ptr<PreparedMeshes> meshes) {
+    // The poly data look at the memory of the meshes: they go first.
+    for (Part& part : parts_) part.mapper->SetInputData(nullptr);
     meshes_ = std::move(meshes);
+    if (meshes_) {
+        const std::array<vtkPolyData*, 4> data{meshes_->coarse, meshes_->medium, meshes_->surfaces, meshes_->emitters};
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            if (data[i]) parts_[i].mapper->SetInputData(data[i]);
+    }
     updateVisibility();
-    if (meshes_ && meshes_->surfaces) clay_->SetInputData(meshes_->surfaces);
-    if (meshes_ && meshes_->emitters) glow_->SetInputData(meshes_->emitters);
-    coarse_ = false;
     edgeColor_ = QColor();   // made anew by apply()
 }
 
-void MeshLayer::setCoarse(bool coarse) {
-    coarse = coarse && hasStandIn();
-    if (coarse == coarse_) return;
-    coarse_ = coarse;
-    clay_->SetInputData(coarse ? meshes_->standIn : meshes_->surfaces);
+MeshDetail MeshLayer::shownDetail() const {
+    if (detail_ == MeshDetail::coarse && meshes_ && meshes_->coarse) return MeshDetail::coarse;
+    if (detail_ != MeshDetail::full && meshes_ && meshes_->medium) return MeshDetail::medium;
+    return MeshDetail::full;
+}
+
+std::size_t MeshLayer::triangleCount(MeshDetail detail) const {
+    if (!meshes_) return 0;
+    if (detail == MeshDetail::coarse && meshes_->coarse) return meshes_->coarseTriangles.triangles.size();
+    if (detail != MeshDetail::full && meshes_->medium) return meshes_->mediumTriangles.triangles.size();
+    return meshes_->geometry.surfaces.triangles.size();
+}
+
+void MeshLayer::setDetail(MeshDetail detail) {
+    detail_ = detail;
+    updateVisibility();
 }
 
 void MeshLayer::setCovered(bool covered) {
@@ -175,27 +178,28 @@ void MeshLayer::setCovered(bool covered) {
 }
 
 void MeshLayer::updateVisibility() {
-    clayActor_->SetVisibility(meshes_ && meshes_->surfaces && opacity_ > 0 && !covered_);
-    glowActor_->SetVisibility(meshes_ && meshes_->emitters && !covered_);
+    const bool surfaces = meshes_ && meshes_->surfaces && opacity_ > 0 && !covered_;
+    for (const MeshDetail detail : {MeshDetail::coarse, MeshDetail::medium, MeshDetail::full})
+        surfacePart(detail).actor->SetVisibility(surfaces && detail == shownDetail());
+    parts_.back().actor->SetVisibility(meshes_ && meshes_->emitters && !covered_);
 }
 
 void MeshLayer::apply(const SceneOptions& options, const ThemeColors& colors) {
     const double opacity = std::clamp(double(options.surfaceOpacity), 0.0, 1.0);
     const bool opaque = opacity >= 0.995;
-    for (auto [actor, mapper] : {std::pair(clayActor_.Get(), clay_.Get()), std::pair(glowActor_.Get(), glow_.Get())}) {
-        mapper->backTint = colors.meshBack;
-        mapper->opaque = opaque ? 1 : 0;
-        vtkProperty* property = actor->GetProperty();
+    for (Part& part : parts_) {
+        const bool shines = &part == &parts_.back();
+        part.mapper->backTint = colors.meshBack;
+        part.mapper->opaque = opaque ? 1 : 0;
+        part.mapper->backOpacity = shines ? 0.6f : options.backFaces == BackFaces::fade && !opaque ? 0.3f : 1.f;
+        vtkProperty* property = part.actor->GetProperty();
         property->SetColor(colors.mesh.redF(), colors.mesh.greenF(), colors.mesh.blueF());
         property->SetBackfaceCulling(options.backFaces == BackFaces::hide);
+        // Lights stay visible longer than what they light, yet never hide what is behind them.
+        property->SetOpacity(opaque ? 1.0 : shines ? std::min(0.95, 0.45 + opacity) : opacity);
     }
-    clay_->backOpacity = options.backFaces == BackFaces::fade && !opaque ? 0.3f : 1.f;
-    clayActor_->GetProperty()->SetOpacity(opaque ? 1.0 : opacity);
     opacity_ = opacity;
     updateVisibility();
-    // Lights stay visible longer than what they light, yet never hide what is behind them.
-    glowActor_->GetProperty()->SetOpacity(opaque ? 1.0 : std::min(0.95, 0.45 + opacity));
-    glow_->backOpacity = 0.6f;
     edges_.setVisible(options.edges);
     rebuildEdges(colors);
 }
@@ -223,11 +227,22 @@ void MeshLayer::rebuildEdges(const ThemeColors& colors) {
     }
 }
 
-void MeshLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar) {
+void MeshLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar, const ClipPlane& clip) {
     for (StrokeLayer* layer : {&edges_, &emitterEdges_}) {
         layer->look().pixelScale = pixelScale;
         layer->look().fadeNear = fadeNear;
         layer->look().fadeFar = fadeFar;
+        setClip(layer->look(), clip);
+    }
+    if (clip.isOn()) {
+        plane_->SetNormal(clip.normal.x, clip.normal.y, clip.normal.z);
+        plane_->SetOrigin(clip.normal.x * clip.offset, clip.normal.y * clip.offset, clip.normal.z * clip.offset);
+    }
+    if (clip.isOn() == clipped_) return;
+    clipped_ = clip.isOn();
+    for (Part& part : parts_) {
+        if (clipped_) part.mapper->AddClippingPlane(plane_);
+        else part.mapper->RemoveAllClippingPlanes();
     }
 }
 

@@ -2,9 +2,11 @@
 
 #include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <memory>
 
 #include "base/theme.h"
@@ -16,10 +18,19 @@ class vtkRenderer;
 
 namespace emca::explorer {
 
-/// Buffers of a scene as VTK wants them, with a coarse stand-in of large ones. Made by any thread.
+/// How much of the surfaces is drawn.
+enum class MeshDetail : std::uint8_t {
+    coarse,   ///< some 100,000 triangles: while the camera moves and frames are slow
+    medium,   ///< about a million: where one frame of all would take seconds
+    full,
+};
+
+/// Buffers of a scene as VTK wants them, with stand-ins of large ones. Made by any thread.
 struct PreparedMeshes {
     MeshGeometry geometry;
-    vtkSmartPointer<vtkPolyData> surfaces, standIn, emitters;   ///< null if there are none
+    ShadedTriangles coarseTriangles, mediumTriangles;   ///< empty if the scene is small enough
+    /// Look at the memory of the triangles above; null if there are none.
+    vtkSmartPointer<vtkPolyData> surfaces, medium, coarse, emitters;
 };
 /// \param base  colour of clay
 std::shared_ptr<PreparedMeshes> prepareMeshes(std::span<const Mesh> meshes, const QColor& base, bool ownColors,
@@ -33,28 +44,39 @@ class MeshLayer {
 
     void setMeshes(std::shared_ptr<PreparedMeshes> meshes);   ///< null: none
     void apply(const SceneOptions& options, const ThemeColors& colors);
-    /// The stand-in takes the place of a scene that is slow to draw, as long as the camera moves.
-    void setCoarse(bool coarse);
+    /// Where there is no stand-in of that detail, the next finer one is drawn.
+    void setDetail(MeshDetail detail);
+    MeshDetail detail() const { return detail_; }
+    std::size_t triangleCount(MeshDetail detail) const;
     /// Something else draws the surfaces; creases stay.
     void setCovered(bool covered);
-    bool hasStandIn() const { return meshes_ && meshes_->standIn; }
+    bool hasMedium() const { return meshes_ && meshes_->medium; }
+    const MeshGeometry* geometry() const { return meshes_ ? &meshes_->geometry : nullptr; }
     std::uint64_t skippedTriangles() const { return meshes_ ? meshes_->geometry.skippedTriangles : 0; }
     BoundingBox box() const { return meshes_ ? meshes_->geometry.box : BoundingBox(); }
     BoundingBox core() const { return meshes_ ? meshes_->geometry.core : BoundingBox(); }
     /// Widths and fading for the coming frame.
-    void prepareFrame(float pixelScale, float fadeNear, float fadeFar);
+    void prepareFrame(float pixelScale, float fadeNear, float fadeFar, const ClipPlane& clip);
 
   private:
     class ClayMapper;
+    /// One draw call: what it draws stays in the graphics memory while another one is shown in its place.
+    struct Part {
+        vtkSmartPointer<ClayMapper> mapper;
+        vtkNew<vtkActor> actor;
+    };
     void rebuildEdges(const ThemeColors& colors);
+    void updateVisibility();
+    MeshDetail shownDetail() const;
+    Part& surfacePart(MeshDetail detail) { return parts_[static_cast<std::size_t>(detail)]; }
 
     vtkRenderer& renderer_;
     std::shared_ptr<PreparedMeshes> meshes_;
-    vtkSmartPointer<ClayMapper> clay_, glow_;
-    vtkNew<vtkActor> clayActor_, glowActor_;
+    vtkNew<vtkPlane> plane_;
+    std::array<Part, 4> parts_;        ///< by MeshDetail, then lights
     StrokeLayer edges_, emitterEdges_;
-    void updateVisibility();
-    bool coarse_ = false, covered_ = false;
+    MeshDetail detail_ = MeshDetail::full;
+    bool covered_ = false, clipped_ = false;
     double opacity_ = 1;
     QColor edgeColor_, emitterColor_;
 };

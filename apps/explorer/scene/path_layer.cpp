@@ -16,10 +16,6 @@ QColor withAlpha(QColor color, double alpha) {
     return color;
 }
 
-QColor segmentColor(const analysis::Segment& s, const ThemeColors& colors) {
-    return s.kind == analysis::SegmentKind::scatter ? colors.path : colors.emitter;
-}
-
 /// The more lines lie over each other, the more each must let through.
 float densityOpacity(std::size_t paths) {
     return std::clamp(4.5f / std::sqrt(static_cast<float>(std::max<std::size_t>(paths, 1))), 0.1f, 0.85f);
@@ -27,14 +23,15 @@ float densityOpacity(std::size_t paths) {
 
 }  // namespace
 
-PathLayer::PathLayer(vtkRenderer& strokes)
-    : context_(strokes), coarseContext_(strokes), contextNextEvents_(strokes), selectedNextEvents_(strokes), selected_(strokes),
+PathLayer::PathLayer(vtkRenderer& strokes, const PathColoring& coloring)
+    : coloring_(coloring), context_(strokes), coarseContext_(strokes), contextNextEvents_(strokes), selectedNextEvents_(strokes), selected_(strokes),
       current_(strokes), marks_(strokes) {}
 
 void PathLayer::setPaths(const PathSet* paths, const PathGeometry* geometry) {
     paths_ = paths;
     geometry_ = geometry;
     selection_ = {};
+    rays_ = {};
     rebuildContext();
     rebuildSelected();
 }
@@ -56,6 +53,20 @@ void PathLayer::setSelection(ShownSelection selection) {
     rebuildSelected();
 }
 
+void PathLayer::setRays(ShownRays rays) {
+    rays_ = std::move(rays);
+    rebuildSelected();
+}
+
+void PathLayer::recolor() {
+    rebuildContext();
+    rebuildSelected();
+}
+
+QColor PathLayer::colorOf(const analysis::Segment& s) const {
+    return coloring_.color(s.to, s.kind == analysis::SegmentKind::scatter ? colors_.path : colors_.emitter);
+}
+
 bool PathLayer::isDrawn(Index path) const { return std::ranges::binary_search(drawn_, path); }
 
 void PathLayer::rebuildContext() {
@@ -72,7 +83,7 @@ void PathLayer::rebuildContext() {
             for (const analysis::Segment& s : geometry_->segmentsOf(path)) {
                 if (s.from == analysis::kNoIndex && i % eyeStep != 0 && s.kind == analysis::SegmentKind::scatter) continue;
                 lines.push_back({s.start, s.end, options_.lineWidth, s.gap ? StrokeStyle::dashed : StrokeStyle::line,
-                                 segmentColor(s, colors_)});
+                                 colorOf(s)});
                 (s.kind == analysis::SegmentKind::scatter ? contextRoles_.path : contextRoles_.emitter) = true;
                 if (i % coarseStep == 0) someLines.push_back(lines.back());
             }
@@ -97,47 +108,84 @@ void PathLayer::appendNextEvents(Index path, std::optional<Index> onlyVertex, fl
     }
 }
 
+bool PathLayer::isLineShown(const analysis::Segment& s, Index path) const {
+    // Switches of its ends come first, then those of the path, then what holds for all.
+    const VertexRays* into = rays_.ofVertex(s.to);
+    const VertexRays* outOf = s.from == analysis::kNoIndex ? nullptr : rays_.ofVertex(s.from);
+    if (into || outOf) return (into && into->incoming) || (outOf && outOf->outgoing);
+    if (const PathRays* own = rays_.ofPath(path)) return own->line;
+    if (!std::ranges::binary_search(selection_.paths, path)) return false;
+    if (path != selection_.path || !selection_.vertex || options_.wholePath) return true;
+    return (s.to == *selection_.vertex && options_.incoming) || (s.from == *selection_.vertex && options_.outgoing);
+}
+
 void PathLayer::appendPath(Index path, bool current, std::vector<Stroke>& lines, std::vector<Stroke>& marks) {
     const std::optional<Index> vertex = current ? selection_.vertex : std::nullopt;
     const bool detail = current || selection_.paths.size() <= kFullDetailPaths;
     const float width = kSelectedFactor * options_.lineWidth;
     for (const analysis::Segment& s : geometry_->segmentsOf(path)) {
-        const bool incoming = vertex && s.to == *vertex, outgoing = vertex && s.from == *vertex;
-        if (vertex && !options_.wholePath && !(incoming && options_.incoming) && !(outgoing && options_.outgoing)) continue;
-        const QColor color = incoming ? colors_.currentSegment : segmentColor(s, colors_);
+        if (!isLineShown(s, path)) continue;
+        const bool incoming = vertex && s.to == *vertex;
+        const QColor color = incoming ? colors_.currentSegment : colorOf(s);
         (incoming ? selectedRoles_.current
          : s.kind == analysis::SegmentKind::scatter ? selectedRoles_.path : selectedRoles_.emitter) = true;
         lines.push_back({s.start, s.end, width, s.gap ? StrokeStyle::dashed : StrokeStyle::line, color});
         if (options_.arrows && detail) lines.push_back({s.start, s.end, 3.2f * width, StrokeStyle::arrow, color});
     }
+    if (const PathRays* own = rays_.ofPath(path); own && !own->line) return;
     if (!detail) return;
     const IndexRange range = paths_->vertices(path);
     for (Index v = range.first; v < range.last; ++v)
         if (v != vertex && !paths_->isEnvironment(v))
-            marks.push_back({geometry_->points[v], {}, 2.3f * width, StrokeStyle::dot, colors_.path});
+            marks.push_back({geometry_->points[v], {}, 2.3f * width, StrokeStyle::dot, coloring_.color(v, colors_.path)});
     // What ends on a light says so with its dot as well; in the environment there is no place to mark, only a direction.
     for (const analysis::Segment& s : geometry_->segmentsOf(path))
-        if (s.kind == analysis::SegmentKind::toEmitter && s.to != vertex)
+        if (s.kind == analysis::SegmentKind::toEmitter && s.to != vertex && !coloring_.isOn())
             marks.push_back({geometry_->points[s.to], {}, 2.3f * width, StrokeStyle::dot, colors_.emitter});
+}
+
+/// What is selected, and what has switches of its own.
+std::vector<Index> PathLayer::brightPaths() const {
+    if (rays_.paths.empty() && rays_.vertices.empty()) return selection_.paths;
+    std::vector<Index> paths = selection_.paths;
+    for (const auto& [path, rays] : rays_.paths) paths.push_back(path);
+    for (const auto& [vertex, rays] : rays_.vertices) paths.push_back(paths_->pathOf(vertex));
+    std::ranges::sort(paths);
+    paths.erase(std::ranges::unique(paths).begin(), paths.end());
+    return paths;
+}
+
+void PathLayer::appendChosenNextEvents(Index path, std::vector<Stroke>& lines) {
+    const bool isCurrent = path == selection_.path, isSelected = std::ranges::binary_search(selection_.paths, path);
+    const NextEventChoice choice = options_.nextEvents;
+    bool whole = isSelected && (choice >= NextEventChoice::selectedPaths || (isCurrent && choice == NextEventChoice::currentPath && options_.wholePath));
+    if (const PathRays* own = rays_.ofPath(path)) whole = own->nextEvents;
+    const bool atVertex = isCurrent && !rays_.ofPath(path) &&
+                          (choice == NextEventChoice::currentVertex || (choice == NextEventChoice::currentPath && !options_.wholePath));
+    const float width = options_.lineWidth;
+    if (rays_.vertices.empty()) {
+        if (whole) appendNextEvents(path, std::nullopt, width, lines);
+        else if (atVertex && selection_.vertex) appendNextEvents(path, selection_.vertex, width, lines);
+        return;
+    }
+    for (Index v = paths_->vertices(path).first; v < paths_->vertices(path).last; ++v) {
+        const VertexRays* own = rays_.ofVertex(v);
+        if (own ? own->nextEvents : whole || (atVertex && v == selection_.vertex)) appendNextEvents(path, v, width, lines);
+    }
 }
 
 void PathLayer::rebuildSelected() {
     selectedRoles_ = {};
     std::vector<Stroke> nextEvents, others, current, marks;
     if (paths_ && geometry_ && options_.paths != PathChoice::none) {
-        const float width = options_.lineWidth;
-        for (const Index path : selection_.paths) {
+        for (const Index path : brightPaths()) {
             const bool isCurrent = path == selection_.path;
             appendPath(path, isCurrent, isCurrent ? current : others, marks);
-            if (options_.nextEvents >= NextEventChoice::selectedPaths || (isCurrent && options_.nextEvents == NextEventChoice::currentPath && options_.wholePath))
-                appendNextEvents(path, std::nullopt, width, nextEvents);
+            appendChosenNextEvents(path, nextEvents);
         }
-        if (selection_.vertex && (options_.nextEvents == NextEventChoice::currentVertex ||
-                                  (options_.nextEvents == NextEventChoice::currentPath && !options_.wholePath)))
-            appendNextEvents(paths_->pathOf(*selection_.vertex), selection_.vertex, width, nextEvents);
         if (selection_.vertex) {
             const Vec3f at = geometry_->points[*selection_.vertex];
-            marks.push_back({at, {}, 7.f * width, StrokeStyle::dot, colors_.selected});
+            marks.push_back({at, {}, 7.f * options_.lineWidth, StrokeStyle::dot, colors_.selected});
             selectedRoles_.selected = true;
         }
     }
@@ -193,9 +241,10 @@ void PathLayer::setCoarse(bool coarse) {
     updateDimming();
 }
 
-void PathLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar) {
+void PathLayer::prepareFrame(float pixelScale, float fadeNear, float fadeFar, const ClipPlane& clip) {
     for (StrokeLayer* layer : {&context_, &coarseContext_, &contextNextEvents_, &selectedNextEvents_, &selected_, &current_, &marks_}) {
         layer->look().pixelScale = pixelScale;
+        setClip(layer->look(), clip);
         layer->look().fadeNear = fadeNear;
         layer->look().fadeFar = fadeFar;
     }

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/path_ids.h"
@@ -15,7 +18,7 @@
 
 // What a click costs in the 3D view, apart from the frame and with it: medians in milliseconds. Processor time stands
 // beside them, because software OpenGL draws on all cores and other programs may want them too.
-// Run under Xvfb with LIBGL_ALWAYS_SOFTWARE=1. An argument limits the rounds.
+// Run under Xvfb with LIBGL_ALWAYS_SOFTWARE=1. An argument limits the rounds; "large N" measures a scene of N triangles.
 using namespace emca;
 using namespace emca::explorer;
 
@@ -112,6 +115,60 @@ void bench(const char* title, std::uint32_t pathCount, std::uint32_t triangles, 
     });
 }
 
+/// Of the whole program, in MiB: what is in use now, and the most that ever was.
+std::pair<double, double> memoryInUse() {
+    std::ifstream status("/proc/self/status");
+    double now = 0, peak = 0;
+    for (std::string word; status >> word;) {
+        if (word == "VmRSS:") status >> now;
+        if (word == "VmHWM:") status >> peak;
+    }
+    return {now / 1024, peak / 1024};
+}
+
+/// A scene of many triangles: how long it takes until it is seen, how much memory, and how it turns.
+void benchLarge(std::uint32_t triangles) {
+    std::printf("%u triangles\n", triangles);
+    client::Dataset dataset;
+    client::Selection selection;
+    Theme theme;
+    SceneView view(dataset, selection, theme);
+    SceneOptions options = view.options();
+    options.animate = options.flyToSelection = false;
+    view.setOptions(options);
+    view.resize(1150, 700);
+    view.show();
+    auto meshes = explorer::testing::roomMeshes();
+    for (std::uint32_t i = 0; i < 4; ++i) {   // four layers of waves: hidden surfaces cost as they do in real scenes
+        meshes.push_back(explorer::testing::waves(triangles / 4));
+        for (Vec3f& p : meshes.back().positions) p.y += 0.15f * float(i);
+    }
+    explorer::testing::fillRoom(dataset, explorer::testing::roomPaths(1024, 8, 0.01f, true));
+    paintNow();
+    std::printf("  before: %.0f MiB in use, the scene's own arrays among them\n", memoryInUse().first);
+    QElapsedTimer timer;
+    timer.start();
+    dataset.setMeshes(std::make_shared<const std::vector<Mesh>>(std::move(meshes)));
+    const double blocked = double(timer.nsecsElapsed()) * 1e-6;
+    while (view.isLoading()) QApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+    paintNow();
+    std::printf("  seen after %.2f s (%.0f ms of it the window was held up), %zu triangles drawn, %.0f MiB in use, %.0f at most\n",
+                double(timer.nsecsElapsed()) * 1e-9, blocked, view.shownTriangles(), memoryInUse().first, memoryInUse().second);
+    ViewPose pose = view.pose();
+    measure("turn by one step", 15, [&](int) {
+        pose = orbited(pose, pose.focus, {0, 1, 0}, 0.02, 0);
+        view.setPose(pose);
+    });
+    timer.restart();
+    while (view.isMoving() || timer.elapsed() < 600) QApplication::processEvents(QEventLoop::AllEvents, 20);
+    std::printf("  at rest: frame of %.0f ms, %zu triangles drawn\n", view.lastFrameSeconds() * 1e3, view.shownTriangles());
+    const PathSet& paths = dataset.paths();
+    measure("select one path", 9, [&](int i) { selection.setPaths({pathId(paths, Index(i * 37) % paths.pathCount())}); });
+    timer.restart();
+    view.renderImage({1150, 700});
+    std::printf("  a picture with every triangle: %.2f s; %.0f MiB at most\n", double(timer.nsecsElapsed()) * 1e-9, memoryInUse().second);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -120,6 +177,10 @@ int main(int argc, char** argv) {
     if (!hasOpenGl()) {
         std::fprintf(stderr, "scene_bench needs OpenGL 3.2: run it under xvfb-run with LIBGL_ALWAYS_SOFTWARE=1.\n");
         return 3;
+    }
+    if (argc > 2 && std::string(argv[1]) == "large") {
+        benchLarge(static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)));
+        return 0;
     }
     const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
     bench("1,024 paths in a small scene", 1024, 0, rounds);

@@ -40,7 +40,7 @@ SceneCanvas::SceneCanvas(Theme& theme, QWidget* parent) : QVTKOpenGLNativeWidget
     strokes_->SetLayer(1);
     strokes_->SetPreserveDepthBuffer(true);
     strokes_->SetActiveCamera(surfaces_->GetActiveCamera());
-    for (vtkRenderer* renderer : {surfaces_.Get(), strokes_.Get()}) {
+    for (vtkRenderer* renderer : {static_cast<vtkRenderer*>(surfaces_.Get()), strokes_.Get()}) {
         renderer->GetCullers()->RemoveAllItems();
         renderer->SetAutomaticLightCreation(false);
     }
@@ -89,6 +89,11 @@ void SceneCanvas::applyPose() {
 }
 
 void SceneCanvas::requestRender() {
+    surfaces_->forget();
+    requestStrokes();
+}
+
+void SceneCanvas::requestStrokes() {
     dirty_ = true;
     update();
 }
@@ -102,6 +107,7 @@ void SceneCanvas::paintGL() {
     if (dirty_) {
         const auto start = std::chrono::steady_clock::now();
         dirty_ = false;
+        const std::uint64_t surfaceFrames = surfaces_->drawnFrames();
         pixelScale_ = static_cast<float>(effectiveDevicePixelRatio());
         applyPose();
         emit aboutToRender();
@@ -114,6 +120,10 @@ void SceneCanvas::paintGL() {
         renderWindow()->WaitForCompletion();
         ++frames_;
         frameSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (surfaces_->drawnFrames() != surfaceFrames) {
+            surfaceSeconds_ = frameSeconds_;
+            emit surfacesDrawn(surfaceSeconds_);
+        }
     }
     QVTKOpenGLNativeWidget::paintGL();
 }
@@ -125,6 +135,7 @@ QImage SceneCanvas::renderImage(QSize size) {
     const int width = window->GetSize()[0], height = window->GetSize()[1];
     window->SetSize(size.width(), size.height());
     pixelScale_ = std::max(1.f, static_cast<float>(size.height()) / static_cast<float>(std::max(this->height(), 1)));
+    surfaces_->forget();
     applyPose();
     emit aboutToRender();
     window->Render();

@@ -9,6 +9,7 @@
 
 #include "base/theme.h"
 #include "emca/core/mesh.h"
+#include "kept_renderer.h"
 #include "view_pose.h"
 
 class vtkRenderer;
@@ -38,10 +39,16 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     double farPlane() const { return far_; }
 
     void requestRender();
+    /// Only strokes have changed: the surfaces' picture is kept.
+    void requestStrokes();
+    /// How often the surfaces were drawn so far.
+    std::uint64_t surfaceFrameCount() const { return surfaces_->drawnFrames(); }
     /// The picture at any size, without overlays; line widths grow with its height. Empty without OpenGL.
     QImage renderImage(QSize size);
     /// Duration of the last frame with everything drawn, in seconds.
     double lastFrameSeconds() const { return frameSeconds_; }
+    /// Duration of the last frame that drew the surfaces.
+    double lastSurfaceSeconds() const { return surfaceSeconds_; }
     /// How many frames were drawn so far, pictures of renderImage() not counted.
     std::uint64_t frameCount() const { return frames_; }
 
@@ -49,6 +56,8 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     void poseChanged();
     /// Comes before each frame: the last chance to set uniforms.
     void aboutToRender();
+    /// Comes after each frame that drew the surfaces anew, with its duration.
+    void surfacesDrawn(double seconds);
 
   protected:
     void initializeGL() override;
@@ -59,13 +68,14 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     void restyle();
 
     Theme& theme_;
-    vtkNew<vtkRenderer> surfaces_, strokes_;
+    vtkNew<KeptRenderer> surfaces_;
+    vtkNew<vtkRenderer> strokes_;
     ViewPose pose_;
     Vec3d extentCentre_;
     double extentRadius_ = 1;
     double near_ = 0.01, far_ = 100;
     float pixelScale_ = 1;
-    double frameSeconds_ = 0;
+    double frameSeconds_ = 0, surfaceSeconds_ = 0;
     std::uint64_t frames_ = 0;
     bool dirty_ = true;
 };

@@ -46,6 +46,13 @@ bool SceneInput::eventFilter(QObject* watched, QEvent* event) {
         case QEvent::ContextMenu: return true;   // on release, unless that ends a drag
         case QEvent::Leave: emit left(); return false;
         case QEvent::FocusOut: driver_.releaseAllKeys(); return false;
+        case QEvent::ShortcutOverride: {
+            // While the view has the focus, its keys are its own, whatever the window makes of them elsewhere.
+            auto* k = static_cast<QKeyEvent*>(event);
+            if (!isOwnKey(k->key(), k->modifiers())) return false;
+            k->accept();
+            return true;
+        }
         case QEvent::KeyPress: {
             auto* k = static_cast<QKeyEvent*>(event);
             const bool taken = key(k->key(), k->modifiers());
@@ -142,6 +149,16 @@ void SceneInput::wheel(const QWheelEvent& event) {
                           std::pow(kZoomPerNotch, notches), at.x(), at.y()));
 }
 
+bool SceneInput::isOwnKey(int key, Qt::KeyboardModifiers modifiers) {
+    if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
+    switch (key) {
+        case Qt::Key_W: case Qt::Key_A: case Qt::Key_S: case Qt::Key_D: case Qt::Key_Q: case Qt::Key_E:
+        case Qt::Key_Up: case Qt::Key_Down: case Qt::Key_Left: case Qt::Key_Right: case Qt::Key_PageUp: case Qt::Key_PageDown:
+        case Qt::Key_Home: case Qt::Key_Backspace: case Qt::Key_O: case Qt::Key_X: case Qt::Key_P: return true;
+        default: return false;
+    }
+}
+
 bool SceneInput::key(int key, Qt::KeyboardModifiers modifiers) {
     if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
     if (driver_.pressKey(key, modifiers & Qt::ShiftModifier)) return true;
@@ -150,6 +167,9 @@ bool SceneInput::key(int key, Qt::KeyboardModifiers modifiers) {
         case Qt::Key_F: emit focusRequested(); return true;
         case Qt::Key_Home: emit resetRequested(); return true;
         case Qt::Key_Backspace: emit backRequested(); return true;
+        case Qt::Key_O: emit orthographicRequested(); return true;
+        case Qt::Key_X: emit clipRequested(); return true;
+        case Qt::Key_P: emit pictureRequested(); return true;
         case Qt::Key_Escape:
             if (!rectangleMode_) return false;
             setRectangleMode(false);

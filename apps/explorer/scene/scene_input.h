@@ -17,7 +17,8 @@ class QWidget;
 namespace emca::explorer {
 
 /// Mouse and keys of the 3D view. Left drag orbits, middle or shift-left drag pans, right drag and wheel zoom; a press
-/// without a drag is a click. `R` makes the next left drag a rectangle. Sees the canvas' events before VTK does.
+/// without a drag is a click. `R` makes the next left drag a rectangle. Arrow keys and W A S D fly, E Q and page keys up and
+/// down, Shift four times as fast. Sees the canvas' events before VTK does.
 class SceneInput : public QObject {
     Q_OBJECT
   public:
@@ -41,6 +42,9 @@ class SceneInput : public QObject {
     void focusRequested();
     void resetRequested();
     void backRequested();
+    void orthographicRequested();                 ///< the other projection
+    void clipRequested();                         ///< the clipping plane on or off
+    void pictureRequested();
 
   protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
@@ -52,6 +56,7 @@ class SceneInput : public QObject {
     bool release(const QMouseEvent& event);
     void wheel(const QWheelEvent& event);
     bool key(int key, Qt::KeyboardModifiers modifiers);
+    static bool isOwnKey(int key, Qt::KeyboardModifiers modifiers);
     void endDrag();
 
     QWidget& canvas_;

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 
+#include "clip_plane.h"
+#include "path_coloring.h"
+
 namespace emca::explorer {
 
 /// Surfaces that turn their back on the viewer: the near walls of a room seen from outside, the insides of objects.
@@ -16,6 +19,8 @@ struct SceneOptions {
     BackFaces backFaces = BackFaces::fade;
     bool ownColors = true;                      ///< the meshes' own colours, subdued; false: plain clay
     bool edges = true;                          ///< creases and borders
+    ClipChoice clip;
+    bool fullDetail = false;                    ///< draw every triangle, even if a frame then takes seconds
 
     PathChoice paths = PathChoice::all;
     NextEventChoice nextEvents = NextEventChoice::currentPath;
@@ -23,11 +28,14 @@ struct SceneOptions {
     bool wholePath = true, incoming = true, outgoing = true;
     float lineWidth = 2;                        ///< pixels; selected paths get 1.75 times that
     float pathOpacity = 1;                      ///< in [0, 1], of paths that are not selected
+    PathColorStyle colors;
     bool arrows = true;
     bool depthLabels = true;
     std::uint32_t maximumPaths = 4096;          ///< drawn at once, evenly chosen; selected ones always
 
     bool cameraGlyph = true;
+    bool lightGlyphs = true;
+    bool axes = true;                           ///< the world's axes in a corner
     bool legend = true;
     bool orthographic = false;
     bool depthPeeling = false;                  ///< exact translucency, several times as slow in software

@@ -2,17 +2,17 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
 #include <QVBoxLayout>
 
 #include <cmath>
+
+#include "scene_panels.h"
 
 namespace emca::explorer {
 
@@ -29,15 +29,21 @@ SceneOptionsPanel::SceneOptionsPanel(SceneView& view, Theme& theme, QWidget* par
     addCheck(surfaces, "Colours of the scene", &SceneOptions::ownColors, "Tint the clay by each mesh's diffuse colour");
     addCheck(surfaces, "Creases", &SceneOptions::edges, "Draw creases and borders as thin lines");
     addCheck(surfaces, "Smooth silhouettes", &SceneOptions::smoothEdges, "Anti-alias the borders of surfaces (FXAA)");
+    addCheck(surfaces, "Every triangle", &SceneOptions::fullDetail,
+             "Of scenes with millions of triangles: draw all of them when nothing moves, even if a frame then takes seconds");
     addCheck(surfaces, "Depth peeling", &SceneOptions::depthPeeling, "Exact order of translucent surfaces; several times as slow in software");
 
+    addClip(section("Clipping plane"));
+
     auto* paths = section("Paths");
-    addChoice(paths, "Show", {"All paths", "Selected paths", "None"}, &SceneOptions::paths, "Which recorded paths are drawn");
+    addChoice(paths, "Show", {"All paths", "Selected paths", "None"}, &SceneOptions::paths,
+              "Which recorded paths are drawn; what a filter or the outlier detector finds becomes the selection");
     addSlider(paths, "Line width", 0.5f, 6, &SceneOptions::lineWidth, "px", "Selected paths are 1.75 times as wide");
     addSlider(paths, "Opacity", 0, 1, &SceneOptions::pathOpacity, "%", "Of paths that are not selected");
     addMaximum(paths);
     addCheck(paths, "Arrow heads", &SceneOptions::arrows, "Direction of travel on selected paths");
     addCheck(paths, "Depth numbers", &SceneOptions::depthLabels, "Label the vertices of the current path");
+    paths->addRow(new PathColorPanel(view_, theme_));
 
     auto* rays = section("Rays");
     addChoice(rays, "Next event", {"None", "Current vertex", "Current path", "Selected paths", "All paths"},
@@ -46,11 +52,15 @@ SceneOptionsPanel::SceneOptionsPanel(SceneView& view, Theme& theme, QWidget* par
     addCheck(rays, "Ray into the vertex", &SceneOptions::incoming, "At the selected vertex, without the whole path");
     addCheck(rays, "Ray out of the vertex", &SceneOptions::outgoing, "At the selected vertex, without the whole path");
 
+    rays->addRow(new RayPanel(view_, theme_));
+
     auto* camera = section("View");
-    addCheck(camera, "Orthographic", &SceneOptions::orthographic, "Parallel projection");
+    addCheck(camera, "Orthographic", &SceneOptions::orthographic, "Parallel projection (O)");
     addCheck(camera, "Fly to selection", &SceneOptions::flyToSelection, "Bring a selected path into view");
     addCheck(camera, "Eased moves", &SceneOptions::animate, "Move the camera over a third of a second");
     addCheck(camera, "Camera symbol", &SceneOptions::cameraGlyph, "Draw the renderer's camera");
+    addCheck(camera, "Light symbols", &SceneOptions::lightGlyphs, "Arrows where lights shine");
+    addCheck(camera, "Axes", &SceneOptions::axes, "Directions of the world's axes, top right");
     addCheck(camera, "Legend", &SceneOptions::legend, "What the colours mean");
     auto* buttons = new QHBoxLayout;
     for (const auto& [text, tip, slot] : {std::tuple("Reset", "The renderer's camera (Home)", &SceneView::resetCamera),
@@ -62,7 +72,8 @@ SceneOptionsPanel::SceneOptionsPanel(SceneView& view, Theme& theme, QWidget* par
         buttons->addWidget(button);
     }
     camera->addRow(buttons);
-    addPicture();
+    section("Picture")->addRow(new PicturePanel(view_, theme_));
+    column_->addWidget(new ObjectPanel(view_, theme_));
     column_->addStretch(1);
 
     const auto read = [this] {
@@ -142,6 +153,53 @@ void SceneOptionsPanel::addChoice(QFormLayout* form, const QString& label, const
     readers_.push_back([=](const SceneOptions& o) { combo->setCurrentIndex(static_cast<int>(o.*member)); });
 }
 
+void SceneOptionsPanel::addClip(QFormLayout* form) {
+    auto* axis = new QComboBox;
+    axis->setObjectName("clipAxis");
+    axis->addItems({"Off", "Along x", "Along y", "Along z", "Along the view"});
+    axis->setToolTip("Cuts away what lies before a plane: look into closed rooms (X)");
+    form->addRow("Cut", axis);
+    connect(axis, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
+        change([&](SceneOptions& o) { o.clip.axis = static_cast<ClipAxis>(index); });
+    });
+    auto* position = new QSlider(Qt::Horizontal);
+    position->setObjectName("clipPosition");
+    position->setRange(0, 200);
+    position->setToolTip("Where the plane is, from one end of the scene to the other");
+    auto* share = new QLabel;
+    share->setFont(theme_.smallNumberFont());
+    share->setMinimumWidth(44);
+    share->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(Spacing::small);
+    row->addWidget(position, 1);
+    row->addWidget(share);
+    form->addRow("Position", row);
+    connect(position, &QSlider::valueChanged, this, [this](int value) { change([&](SceneOptions& o) { o.clip.position = float(value) / 200; }); });
+    auto* flip = new QCheckBox("Other side");
+    auto* paths = new QCheckBox("Paths as well");
+    flip->setObjectName("clipFlip");
+    paths->setObjectName("clipPaths");
+    flip->setToolTip("Cut away what lies behind the plane");
+    paths->setToolTip("Cut paths, too; else they go on through what is cut away");
+    auto* switches = new QHBoxLayout;
+    switches->addWidget(flip);
+    switches->addWidget(paths);
+    switches->addStretch(1);
+    form->addRow(switches);
+    connect(flip, &QCheckBox::toggled, this, [this](bool on) { change([&](SceneOptions& o) { o.clip.flip = on; }); });
+    connect(paths, &QCheckBox::toggled, this, [this](bool on) { change([&](SceneOptions& o) { o.clip.paths = on; }); });
+    readers_.push_back([=](const SceneOptions& o) {
+        axis->setCurrentIndex(static_cast<int>(o.clip.axis));
+        position->setValue(static_cast<int>(std::lround(o.clip.position * 200)));
+        share->setText(QString("%1 %").arg(double(o.clip.position) * 100, 0, 'f', 0));
+        flip->setChecked(o.clip.flip);
+        paths->setChecked(o.clip.paths);
+        for (QWidget* w : {static_cast<QWidget*>(position), static_cast<QWidget*>(flip), static_cast<QWidget*>(paths)})
+            w->setEnabled(o.clip.axis != ClipAxis::none);
+    });
+}
+
 void SceneOptionsPanel::addMaximum(QFormLayout* form) {
     auto* spin = new QSpinBox;
     spin->setRange(16, 1 << 20);
@@ -154,31 +212,6 @@ void SceneOptionsPanel::addMaximum(QFormLayout* form) {
         change([&](SceneOptions& o) { o.maximumPaths = static_cast<std::uint32_t>(value); });
     });
     readers_.push_back([=](const SceneOptions& o) { spin->setValue(static_cast<int>(o.maximumPaths)); });
-}
-
-void SceneOptionsPanel::addPicture() {
-    auto* form = section("Picture");
-    auto* width = new QSpinBox;
-    auto* height = new QSpinBox;
-    for (QSpinBox* spin : {width, height}) {
-        spin->setRange(16, 8192);
-        spin->setSuffix(" px");
-    }
-    width->setValue(1920);
-    height->setValue(1080);
-    auto* sizes = new QHBoxLayout;
-    sizes->addWidget(width, 1);
-    sizes->addWidget(new QLabel("×"));
-    sizes->addWidget(height, 1);
-    form->addRow("Size", sizes);
-    auto* save = new QPushButton("Save PNG…");
-    form->addRow(save);
-    connect(save, &QPushButton::clicked, this, [=, this] {
-        const QString file = QFileDialog::getSaveFileName(this, "Save the 3D view", "scene.png", "PNG (*.png)");
-        if (file.isEmpty()) return;
-        const Result<void> saved = view_.saveImage(file, {width->value(), height->value()});
-        if (!saved) QMessageBox::warning(this, "Save the 3D view", QString::fromStdString(saved.error().message));
-    });
 }
 
 }  // namespace emca::explorer

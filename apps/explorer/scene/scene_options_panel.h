@@ -28,7 +28,7 @@ class SceneOptionsPanel : public QWidget {
     void addChoice(QFormLayout* form, const QString& label, const QStringList& names, Choice SceneOptions::*member,
                    const QString& tip);
     void addMaximum(QFormLayout* form);
-    void addPicture();
+    void addClip(QFormLayout* form);
     void change(const std::function<void(SceneOptions&)>& edit);
 
     SceneView& view_;

@@ -1,5 +1,6 @@
 #include "scene_overlay.h"
 
+#include <QLinearGradient>
 #include <QPainter>
 #include <QPainterPath>
 
@@ -79,12 +80,46 @@ void paintLegend(QPainter& p, QSizeF size, const OverlayContent& content, const 
             p.setPen(Qt::NoPen);
             p.setBrush(entry.color);
             p.drawEllipse(QPointF(x + kMark / 2, y), 5, 5);
+        } else if (entry.mark == OverlayContent::Mark::square) {
+            p.setPen(Qt::NoPen);
+            p.setBrush(entry.color);
+            p.drawRoundedRect(QRectF(x + kMark / 2 - 5, y - 5, 10, 10), 2, 2);
+        } else if (entry.mark == OverlayContent::Mark::ramp) {
+            QLinearGradient gradient(x, y, x + kMark, y);
+            const double last = std::max<double>(1, double(entry.ramp.size()) - 1);
+            for (std::size_t i = 0; i < entry.ramp.size(); ++i) gradient.setColorAt(double(i) / last, entry.ramp[i]);
+            p.setPen(Qt::NoPen);
+            p.setBrush(gradient);
+            p.drawRoundedRect(QRectF(x, y - 4, kMark, 8), 2, 2);
         } else {
             p.drawLine(QPointF(x + 1, y), QPointF(x + kMark - 1, y));
         }
         p.setPen(c.text);
         p.drawText(QRectF(x + kMark + 6, y - kRow / 2, w + 4, kRow), Qt::AlignVCenter | Qt::AlignLeft, entry.text);
         y += kRow;
+    }
+}
+
+void paintAxes(QPainter& p, QSizeF size, const OverlayContent& content, const Theme& theme) {
+    if (content.axes.empty()) return;
+    constexpr double kLength = 26;
+    const QPointF centre(size.width() - 46, 46);
+    QFont font = theme.smallFont();
+    font.setBold(true);
+    p.setFont(font);
+    std::vector<const OverlayContent::Axis*> order;
+    for (const OverlayContent::Axis& axis : content.axes) order.push_back(&axis);
+    std::ranges::sort(order, {}, &OverlayContent::Axis::towardsEye);   // far ones first
+    for (const OverlayContent::Axis* axis : order) {
+        const QPointF end = centre + axis->to * kLength;
+        const QColor ink = translucent(axis->color, axis->towardsEye < -0.2 ? 0.55 : 1);
+        p.setPen(QPen(translucent(theme.colors().halo, 0.6), 4, Qt::SolidLine, Qt::RoundCap));
+        p.drawLine(centre, end);
+        p.setPen(QPen(ink, 2.2, Qt::SolidLine, Qt::RoundCap));
+        p.drawLine(centre, end);
+        const QPointF at = centre + axis->to * (kLength + 9);
+        const double w = p.fontMetrics().horizontalAdvance(axis->name);
+        outlined(p, at + QPointF(-w / 2, p.fontMetrics().ascent() / 2.0 - 1), axis->name, ink, theme.colors().halo);
     }
 }
 
@@ -151,6 +186,7 @@ void paintOverlay(QPainter& painter, QSizeF size, const OverlayContent& content,
     }
     paintLabels(painter, content, theme);
     paintLegend(painter, size, content, theme);
+    paintAxes(painter, size, content, theme);
     paintTexts(painter, size, content, theme);
     if (content.rectangle) {
         const ThemeColors& c = theme.colors();

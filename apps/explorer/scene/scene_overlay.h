@@ -19,13 +19,20 @@ namespace emca::explorer {
 /// What is written over the 3D view; positions in pixels of the view.
 struct OverlayContent {
     struct Label { QPointF at; QString text; bool strong = false; };
-    enum class Mark { line, dashes, dot };
-    struct LegendEntry { QString text; QColor color; Mark mark = Mark::line; };
+    enum class Mark { line, dashes, dot, square, ramp };
+    struct LegendEntry {
+        QString text;
+        QColor color;
+        Mark mark = Mark::line;
+        std::vector<QColor> ramp;       ///< of Mark::ramp: from low to high
+    };
+    struct Axis { QPointF to; double towardsEye = 0; QColor color; QString name; };   ///< `to`: in units of its length
     struct Card { QPointF at; QString title; std::vector<std::pair<QString, QString>> rows; };
 
     std::vector<Label> labels;          ///< depth numbers beside vertices; strong ones first
     std::optional<QPointF> ring;        ///< around the hovered vertex: here, so that hovering needs no new frame
     std::vector<LegendEntry> legend;    ///< bottom left
+    std::vector<Axis> axes;             ///< of the world, top right
     QString caption;                    ///< bottom right: what is left out of the picture
     QString hint;                       ///< top middle: what to do now
     std::optional<Card> card;           ///< beside the cursor

@@ -11,6 +11,8 @@
 #include "emca/client/dataset.h"
 #include "emca/client/selection.h"
 #include "emca/core/result.h"
+#include "ray_switches.h"
+#include "scene_objects.h"
 #include "scene_options.h"
 #include "surface_model.h"
 #include "view_pose.h"
@@ -23,9 +25,10 @@ void prepareOpenGl();
 bool hasOpenGl();
 
 /// The scene in 3D with the recorded paths of the current pixels: reads Dataset and Selection, writes the Selection.
-/// Left drag orbits, middle or shift-left drag pans, right drag and wheel zoom, arrow keys fly. Click selects a vertex
-/// or a path, ctrl-click and shift-click add to the selection, `R` drags a rectangle, `F` focuses on the selection,
-/// Home is the renderer's camera, Backspace the view before. Without OpenGL it is a placeholder that says so.
+/// Left drag orbits, middle or shift-left drag pans, right drag and wheel zoom, arrow keys and W A S D fly. Click selects
+/// a vertex or a path, ctrl-click and shift-click add to the selection, `R` drags a rectangle, `F` focuses on the selection,
+/// Home is the renderer's camera, Backspace the view before, `O` the other projection, `X` the clipping plane, `P` a
+/// picture. Without OpenGL it is a placeholder that says so.
 /// GUI thread.
 class SceneView : public QWidget {
     Q_OBJECT
@@ -38,6 +41,19 @@ class SceneView : public QWidget {
 
     /// 3D data on surfaces: which layer colours the scene, and how.
     SurfaceModel& surfaces();
+    /// What plugins add. A switch for each is in the options.
+    SceneObjects& objects();
+    /// Switches of single paths and vertices.
+    const RaySwitches& raySwitches() const;
+    void setRaySwitches(const RaySwitches& switches);
+    /// The colours of paths by value: range, error.
+    const PathColoring& pathColors() const;
+    /// The current path and vertex as far as they are shown, and what is drawn of them.
+    std::optional<client::PathId> currentPathId() const;
+    std::optional<client::VertexId> currentVertexId() const;
+    std::optional<PathRays> currentPathRays() const;
+    std::optional<VertexRays> currentVertexRays() const;
+    const PathSet& paths() const;       ///< that are shown; shares its columns with the Dataset
     /// What the shown layer says under the cursor.
     std::optional<SurfaceValue> hoveredSurface() const;
 
@@ -55,6 +71,8 @@ class SceneView : public QWidget {
     bool isLoading() const;             ///< meshes or their layers are being prepared
     double lastFrameSeconds() const;    ///< time that the last frame took to draw; 0 without OpenGL
     std::uint64_t frameCount() const;   ///< frames drawn so far; 0 without OpenGL
+    std::uint64_t surfaceFrameCount() const;   ///< of those, frames that drew the surfaces anew
+    std::size_t shownTriangles() const; ///< of surfaces, in the next frame: all, or those of a stand-in
     void requestFrame();                ///< draws another one although nothing changed
     bool isMoving() const;              ///< a flight or a key that is held
 
@@ -71,9 +89,13 @@ class SceneView : public QWidget {
     void showLoadError(const QString& sentence);
 
   signals:
-    void optionsChanged();
+    void optionsChanged();              ///< or objects, or switches of rays
+    void pathsChanged();                ///< other ones are shown
+    void selectionShown();              ///< another path or vertex is current
     void rectangleModeChanged(bool on);
     void poseChanged();
+    /// Somebody asked for a picture, by key or menu (the dialog is the options panel's).
+    void pictureRequested();
     /// The button of the empty state: somebody wants to connect.
     void connectRequested();
     void reloadRequested();

@@ -12,6 +12,8 @@
 #include "heat_layer.h"
 #include "mesh_layer.h"
 #include "mesh_loader.h"
+#include "object_layer.h"
+#include "object_picker.h"
 #include "path_layer.h"
 #include "scene_canvas.h"
 #include "scene_input.h"
@@ -20,13 +22,16 @@
 #include "scene_view.h"
 #include "surface_model.h"
 
+class QMenu;
+
 namespace emca::explorer {
 
-class ColorBar;
 class StateOverlay;
 
-/// What a SceneView is made of. scene_view.cpp: models, camera, options; scene_view_pointer.cpp: what the mouse means;
-/// scene_view_overlay.cpp: what is written over the picture; scene_view_surface.cpp: 3D data on surfaces.
+/// What a SceneView is made of. scene_view_models.cpp: what it makes of Dataset, Selection and options;
+/// scene_view_camera.cpp: from where it looks; scene_view_pointer.cpp: what the mouse means, scene_view_menu.cpp: its menu;
+/// scene_view_overlay.cpp: what is written over the picture; scene_view_surface.cpp: 3D data on surfaces, and the bars;
+/// scene_view_picture.cpp: pictures of any size.
 class SceneView::Impl {
   public:
     Impl(SceneView& owner, client::Dataset& data, client::Selection& sel, Theme& look);
@@ -62,8 +67,15 @@ class SceneView::Impl {
     void showPath(Index path, std::optional<Index> vertex, bool always);
     void closeUp(Index vertex);
     void setCoarse(bool coarse);
+    MeshDetail settledDetail() const;
+    void surfacesDrawn(double seconds);
+    void showDetail();
+    ClipPlane clip() const;
     void prepareFrame();
     void applyOptions();
+    void recolorPaths();
+    void raysChanged();
+    void objectsChanged();
 
     // Pointer.
     PickContext pickContext() const;
@@ -71,16 +83,21 @@ class SceneView::Impl {
     void focusAt(QPointF at);
     void hover(std::optional<QPointF> at);
     void selectInside(QRectF rectangle, Qt::KeyboardModifiers modifiers);
+    std::optional<ObjectHit> objectAt(QPointF at);
     void menu(QPointF at, QPoint global);
+    void addRayActions(QMenu& menu, const Picked& hit);
+    PathRays raysOf(Index path) const;
+    VertexRays raysAt(Index vertex) const;
 
     // 3D data on surfaces.
     void connectSurfaces();
     void showSurface();               ///< another field
     void showSurfaceStyle();
     void arrange();                   ///< picture and colour bar
-    int barWidth() const;
-    ColorBarContent barContent() const;
+    int barWidth() const;             ///< of all bars
+    std::vector<std::pair<ColorBar*, ColorBarContent>> bars() const;   ///< those that are shown, from the left
     void updateAntiAliasing();
+    std::optional<SurfaceHit> pickSurface(Ray ray) const;
     void probeSoon();
     void probe();
     OverlayContent::Card surfaceCard(const SurfaceValue& value, QPointF at) const;
@@ -95,6 +112,7 @@ class SceneView::Impl {
     client::Selection& selection;
     Theme& theme;
     SceneOptions options;
+    SceneObjects objects;
 
     CameraDriver driver;
     MeshLoader loader;
@@ -107,14 +125,19 @@ class SceneView::Impl {
     std::unique_ptr<GlyphLayer> glyphs;
     std::unique_ptr<PathLayer> pathLayer;
     std::unique_ptr<HeatLayer> heat;
+    std::unique_ptr<ObjectLayer> objectLayer;
+    ObjectPicker objectPicker;
     SurfaceModel surfaces;
-    ColorBar* bar;                        ///< beside the picture, hidden without a layer
+    PathColoring coloring;
+    RaySwitches raySwitches;
+    ColorBar *bar, *pathBar;              ///< beside the picture, hidden where there is nothing to explain
 
     PathSet paths;                        ///< shares its columns with the Dataset
     PathGeometry geometry;
     BoundingBox pathBox;
     ShownSelection shown;
     std::optional<Index> hovered;
+    std::optional<ObjectHit> hoveredObject;
     std::optional<QPointF> cursor;
     QTimer probing;                       ///< one look-up of the surface under the cursor per turn
     std::optional<SurfaceValue> probed;   ///< under the cursor, unless a vertex is
@@ -125,7 +148,9 @@ class SceneView::Impl {
     double focusDistance = 0;             ///< to what the renderer's camera looks at; 0 if nothing
     std::optional<double> loadingFraction;
     QString loadError;
+    ClipAxis lastClipAxis = ClipAxis::view;   ///< what the key brings back
     bool isCoarse = false;
+    double mediumSeconds = 0;             ///< of the quickest frame with the medium stand-in; 0: not known
 
     // Last, so that no call arrives while the rest is being destroyed.
     std::optional<DatasetListening> datasetListening;

@@ -1,16 +1,9 @@
-#include <QApplication>
-#include <QClipboard>
-#include <QMenu>
-
 #include <algorithm>
 
 #include "base/path_ids.h"
-#include "base/qt_compat.h"
-#include "emca/analysis/format.h"
 #include "scene_view_impl.h"
-#include "vertex_card.h"
 
-// What mouse and menu of the 3D view mean for the Selection.
+// What the mouse means for the Selection.
 namespace emca::explorer {
 
 PickContext SceneView::Impl::pickContext() const {
@@ -21,7 +14,10 @@ PickContext SceneView::Impl::pickContext() const {
 
 void SceneView::Impl::click(QPointF at, Qt::KeyboardModifiers modifiers) {
     const auto hit = pickAt(pickContext(), projection(), at.x(), at.y());
-    if (!hit) return;   // a click beside everything keeps the selection; Esc clears it
+    if (!hit) {   // a click beside everything keeps the selection; Esc clears it
+        if (const auto object = objectAt(at)) objects.pick(object->id, object->element);
+        return;
+    }
     const client::PathId path = pathId(paths, hit->path);
     client::Selection::State state = selection.state();
     const bool selected = selection.isSelected(path);
@@ -33,6 +29,12 @@ void SceneView::Impl::click(QPointF at, Qt::KeyboardModifiers modifiers) {
     state.currentPath = path;
     state.vertex = hit->vertex ? std::optional(vertexId(paths, *hit->vertex)) : std::nullopt;
     selection.set(std::move(state));
+}
+
+std::optional<ObjectHit> SceneView::Impl::objectAt(QPointF at) {
+    if (objects.entries().empty()) return std::nullopt;
+    const Ray ray = rayThrough(driver.pose(), viewport(), at.x(), at.y(), 2 * extentRadius);
+    return objectPicker.pick(objects.entries(), projection(), ray, at.x(), at.y());
 }
 
 void SceneView::Impl::focusAt(QPointF at) {
@@ -57,9 +59,12 @@ void SceneView::Impl::hover(std::optional<QPointF> at) {
     cursor = at;
     std::optional<Index> vertex;
     if (at && !input->rectangleMode()) vertex = pickVertex(pickContext(), projection(), at->x(), at->y());
+    const std::optional<ObjectHit> before = hoveredObject;
+    hoveredObject.reset();
+    if (at && !vertex && !input->rectangleMode()) hoveredObject = objectAt(*at);
     if (canvas && !input->rectangleMode()) canvas->setCursor(vertex ? Qt::PointingHandCursor : Qt::ArrowCursor);
     probeSoon();
-    if (vertex == hovered && !vertex) return;
+    if (vertex == hovered && !vertex && !before && !hoveredObject) return;
     selection.setHovered(vertex ? std::optional(vertexId(paths, *vertex)) : std::nullopt);
     updateOverlay();
 }
@@ -80,51 +85,6 @@ void SceneView::Impl::selectInside(QRectF r, Qt::KeyboardModifiers modifiers) {
         state.currentPath = state.paths.size() == 1 ? std::optional(state.paths.front()) : std::nullopt;
     }
     selection.set(std::move(state));
-}
-
-void SceneView::Impl::menu(QPointF at, QPoint global) {
-    const auto hit = pickAt(pickContext(), projection(), at.x(), at.y());
-    QMenu menu(&view);
-    if (hit) {
-        const client::PathId path = pathId(paths, hit->path);
-        const QString title = pathTitle(paths, hit->path);
-        QObject::connect(menu.addAction("Select only " + title), &QAction::triggered, &view, [=, this] {
-            client::Selection::State state = selection.state();
-            state.paths = {path};
-            state.currentPath = path;
-            state.vertex = hit->vertex ? std::optional(vertexId(paths, *hit->vertex)) : std::nullopt;
-            selection.set(std::move(state));
-        });
-        QObject::connect(menu.addAction((selection.isSelected(path) ? "Remove " : "Add ") + title +
-                                        (selection.isSelected(path) ? " from the selection" : " to the selection")),
-                         &QAction::triggered, &view, [=, this] { selection.togglePath(path); });
-        QObject::connect(menu.addAction("Show the whole path"), &QAction::triggered, &view,
-                         [=, this] { showPath(hit->path, hit->vertex, true); });
-        if (hit->vertex) {
-            const Index vertex = *hit->vertex;
-            QObject::connect(menu.addAction("Focus this vertex"), &QAction::triggered, &view, [=, this] { closeUp(vertex); });
-            QObject::connect(menu.addAction("Copy position"), &QAction::triggered, &view, [=, this] {
-                if (const auto p = paths.position(vertex))
-                    QApplication::clipboard()->setText(toQString(analysis::formatValueFull(*p)));
-            });
-            QObject::connect(menu.addAction("Copy values"), &QAction::triggered, &view, [=, this] {
-                const OverlayContent::Card card = vertexCard(paths, vertex, {});
-                QString text = card.title;
-                for (const auto& [key, value] : card.rows) text += "\n" + key + "\t" + value;
-                QApplication::clipboard()->setText(text);
-            });
-        }
-        menu.addSeparator();
-    }
-    QObject::connect(menu.addAction("Focus\tF"), &QAction::triggered, &view, &SceneView::focusSelection);
-    QAction* backAction = menu.addAction("Back\tBackspace");
-    backAction->setEnabled(driver.canGoBack());
-    QObject::connect(backAction, &QAction::triggered, &view, &SceneView::back);
-    QObject::connect(menu.addAction("Renderer's camera\tHome"), &QAction::triggered, &view, &SceneView::resetCamera);
-    QObject::connect(menu.addAction("Select by rectangle\tR"), &QAction::triggered, &view, [this] { view.setRectangleMode(true); });
-    QObject::connect(menu.addAction("Copy picture"), &QAction::triggered, &view,
-                     [this] { QApplication::clipboard()->setImage(view.renderImage(view.size())); });
-    menu.exec(global);
 }
 
 }  // namespace emca::explorer

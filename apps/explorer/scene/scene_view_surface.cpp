@@ -20,7 +20,15 @@ constexpr int kProbeMilliseconds = 16;   ///< between two look-ups while the cur
 }  // namespace
 
 void SceneView::Impl::connectSurfaces() {
+    bar->setObjectName("surfaceBar");
+    pathBar->setObjectName("pathBar");
     bar->hide();
+    pathBar->hide();
+    QObject::connect(pathBar, &ColorBar::rangeEdited, &view, [this](const analysis::ValueRange& range) {
+        SceneOptions changed = options;
+        changed.colors.limits = SurfaceLimits{range.min, range.max};
+        view.setOptions(changed);
+    });
     probing.setSingleShot(true);
     probing.setInterval(kProbeMilliseconds);
     QObject::connect(&probing, &QTimer::timeout, &view, [this] { probe(); });
@@ -53,9 +61,16 @@ void SceneView::Impl::updateAntiAliasing() {
     canvas->surfaces().SetUseFXAA(options.smoothEdges && !isCoarse && !(heat && heat->isShown()));
 }
 
-int SceneView::Impl::barWidth() const { return canvas && surfaces.shown() && !surfaces.isColor() ? ColorBar::kTitledWidth : 0; }
+std::vector<std::pair<ColorBar*, ColorBarContent>> SceneView::Impl::bars() const {
+    std::vector<std::pair<ColorBar*, ColorBarContent>> shownBars;
+    if (!canvas) return shownBars;
+    if (surfaces.shown() && !surfaces.isColor()) shownBars.push_back({bar, {surfaces.style().map, surfaces.range(), {}, surfaces.title()}});
+    if (coloring.isOn() && coloring.categories().empty() && options.paths != PathChoice::none)
+        shownBars.push_back({pathBar, {options.colors.map, coloring.range(), {}, coloring.title()}});
+    return shownBars;
+}
 
-ColorBarContent SceneView::Impl::barContent() const { return {surfaces.style().map, surfaces.range(), {}, surfaces.title()}; }
+int SceneView::Impl::barWidth() const { return ColorBar::kTitledWidth * static_cast<int>(bars().size()); }
 
 void SceneView::Impl::arrange() {
     const int width = barWidth();
@@ -63,12 +78,16 @@ void SceneView::Impl::arrange() {
     const bool resized = canvas && canvas->geometry() != picture;
     if (canvas) canvas->setGeometry(picture);
     overlay->setGeometry(picture);
-    bar->setVisible(width > 0);
-    if (width > 0) {
-        bar->setGeometry(picture.right() + 1, 0, width, view.height());
-        ColorBarContent content = barContent();
-        content.pointer = bar->content().pointer;
-        bar->show(content);
+    const auto wanted = bars();
+    for (ColorBar* each : {bar, pathBar})
+        if (std::ranges::find(wanted, each, &std::pair<ColorBar*, ColorBarContent>::first) == wanted.end()) each->hide();
+    int x = picture.right() + 1;
+    for (auto [each, content] : wanted) {
+        each->setGeometry(x, 0, ColorBar::kTitledWidth, view.height());
+        content.pointer = each->content().pointer;
+        each->show(content);
+        each->setVisible(true);
+        x += ColorBar::kTitledWidth;
     }
     if (resized && !moved()) goHome(true);
     updateOverlay();
@@ -76,7 +95,7 @@ void SceneView::Impl::arrange() {
 
 void SceneView::Impl::probeSoon() {
     if (!canvas) return;
-    if (surfaces.shown() && cursor && !hovered && !input->rectangleMode()) {
+    if (surfaces.shown() && cursor && !hovered && !hoveredObject && !input->rectangleMode()) {
         if (!probing.isActive()) probing.start();
     } else if (probed) {
         probed.reset();
@@ -85,14 +104,30 @@ void SceneView::Impl::probeSoon() {
     }
 }
 
+/// The surface that is seen: nothing that the clipping plane cuts away.
+std::optional<SurfaceHit> SceneView::Impl::pickSurface(Ray ray) const {
+    const ClipPlane plane = clip();
+    double skipped = 0;
+    if (!plane.keeps(ray.origin)) {
+        const double approach = dot(plane.normal, ray.direction);
+        if (!(approach > 0)) return std::nullopt;
+        skipped = (plane.offset - dot(plane.normal, ray.origin)) / approach * (1 + 1e-9);
+        ray.origin = ray.origin + ray.direction * skipped;
+    }
+    auto hit = surfaces.surface()->picker.pick(ray, options.backFaces);
+    if (!hit || !plane.keeps(ray.origin + ray.direction * hit->distance)) return std::nullopt;
+    hit->distance += skipped;
+    return hit;
+}
+
 void SceneView::Impl::probe() {
     const bool had = probed.has_value();
     probed.reset();
-    if (surfaces.shown() && cursor && !hovered) {
+    if (surfaces.shown() && cursor && !hovered && !hoveredObject) {
         QElapsedTimer clock;
         clock.start();
         const Ray ray = rayThrough(driver.pose(), viewport(), cursor->x(), cursor->y(), 2 * extentRadius);
-        if (const auto hit = surfaces.surface()->picker.pick(ray, options.backFaces)) probed = surfaces.valueAt(*hit);
+        if (const auto hit = pickSurface(ray)) probed = surfaces.valueAt(*hit);
         // Scenes so large that a look-up takes long get fewer of them, and the view stays quick.
         probing.setInterval(std::max(kProbeMilliseconds, 3 * static_cast<int>(clock.elapsed())));
     }

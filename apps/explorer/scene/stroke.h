@@ -15,6 +15,7 @@ enum class StrokeStyle : std::uint8_t {
     dashed = 1,  ///< dashes of equal length on the screen
     arrow = 2,   ///< a head a little behind the middle of the segment, pointing to its end; left out on short ones
     dot = 3,     ///< a disc at `from`
+    head = 4,    ///< an arrow head whose tip is the end
 };
 
 /// One mark of the 3D view. World space.

@@ -6,12 +6,20 @@
 
 #include <span>
 
+#include "clip_plane.h"
 #include "stroke.h"
 #include "stroke_mapper.h"
 
 class vtkRenderer;
 
 namespace emca::explorer {
+
+/// What the plane cuts away is not drawn; its default cuts nothing.
+inline void setClip(StrokeLook& look, const ClipPlane& clip) {
+    const Vec3d& n = clip.normal;
+    const double plane[4] = {n.x, n.y, n.z, -clip.offset};
+    for (int i = 0; i < 4; ++i) look.clip[i] = static_cast<float>(plane[i]);
+}
 
 /// Strokes that change together: one actor, one draw call. Replacing them costs their own number, nothing else.
 class StrokeLayer {

@@ -27,6 +27,7 @@ uniform mat4 MCVCMatrix;
 uniform vec4 strokeViewport;   // x, y, width, height in device pixels
 uniform vec2 strokePixels;     // pixel scale, halo
 uniform float strokePull;
+uniform vec4 strokeClip;
 flat out vec4 segment;         // both ends in device pixels
 flat out vec4 shape;           // half width in device pixels, style, length, -
 flat out vec4 color;
@@ -38,16 +39,21 @@ void main() {
   vec3 start = strokeStart;
   float corner = vertexMC.x;
   vec3 end = strokeEnd;
-  vec4 a = MCDCMatrix * vec4(start, 1.0);
-  vec4 b = MCDCMatrix * vec4(end, 1.0);
-  // What lies before the near plane is cut off here: it has no place on the screen.
-  float da = a.z + a.w;
-  float db = b.z + b.w;
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   segment = vec4(0.0);
   shape = vec4(0.0);
   color = strokeColor;
   viewDepth = 0.0;
+  float ca = dot(strokeClip.xyz, start) + strokeClip.w;
+  float cb = dot(strokeClip.xyz, end) + strokeClip.w;
+  if (ca < 0.0 && cb < 0.0) return;
+  if (ca < 0.0) start = mix(start, end, ca / (ca - cb));
+  else if (cb < 0.0) end = mix(end, start, cb / (cb - ca));
+  vec4 a = MCDCMatrix * vec4(start, 1.0);
+  vec4 b = MCDCMatrix * vec4(end, 1.0);
+  // What lies before the near plane is cut off here: it has no place on the screen.
+  float da = a.z + a.w;
+  float db = b.z + b.w;
   if (da <= 0.0 && db <= 0.0) return;
   if (da < 0.0) { float t = da / (da - db) * 1.0001; a = mix(a, b, t); start = mix(start, end, t); }
   if (db < 0.0) { float t = db / (db - da) * 1.0001; b = mix(b, a, t); end = mix(end, start, t); }
@@ -75,13 +81,19 @@ void main() {
     start = mix(start, end, 0.56);
     end = start;
   }
+  if (style > 3.5) {
+    if (len < 1.5 * halfWidth) return;
+    pa = pb - u * (2.2 * halfWidth);
+    za = zb;
+    start = end;
+  }
   vec2 pixel = (t < 0.5 ? pa - u * r : pb + u * r) + n * (side * r);
   segment = vec4(pa, pb);
   shape = vec4(halfWidth, style, len, 0.0);
   viewDepth = -(MCVCMatrix * vec4(t < 0.5 ? start : end, 1.0)).z;
   vec2 ndc = (pixel - strokeViewport.xy) / strokeViewport.zw * 2.0 - 1.0;
   // An arrow head lies on its own line: a little nearer to the eye, or they fight.
-  float pull = strokePull + ((style > 1.5 && style < 2.5) ? 0.003 : 0.0);
+  float pull = strokePull + ((style > 1.5 && style < 2.5) || style > 3.5 ? 0.003 : 0.0);
   // z/w is linear on the screen, so the quad needs no perspective of its own.
   float z = t < 0.5 ? za : zb;
   gl_Position = vec4(ndc, z - pull * (1.0 - z), 1.0);
@@ -110,7 +122,7 @@ void main() {
   float along = l2 > 1e-8 ? dot(p - a, way) / l2 : 0.0;
   float edge = distance(p, a + clamp(along, 0.0, 1.0) * way) - shape.x;
   float style = shape.y;
-  if (style > 1.5 && style < 2.5) {
+  if ((style > 1.5 && style < 2.5) || style > 3.5) {
     // Triangle: full width at the tail, none at the tip; 0.9 turns the slope into a distance.
     vec2 u = way / sqrt(max(l2, 1e-8));
     float across = abs(dot(p - a, vec2(-u.y, u.x)));
@@ -169,6 +181,7 @@ void StrokeMapper::SetMapperShaderParameters(vtkOpenGLHelper& helper, vtkRendere
     program.SetUniform2f("strokePixels", pixels);
     program.SetUniformf("strokeOpacity", look.opacity);
     program.SetUniformf("strokePull", look.pull);
+    program.SetUniform4f("strokeClip", look.clip);
     setColor(program, "strokeHalo", look.haloColor, look.halo > 0 ? float(look.haloColor.alphaF()) : 0.f);
     setColor(program, "strokeFade", look.fadeColor, look.fade);
     program.SetUniform2f("strokeFadeRange", range);

@@ -16,6 +16,7 @@ struct StrokeLook {
     float fadeNear = 0, fadeFar = 1;  ///< distances along the view direction
     QColor fadeColor;           ///< what distant strokes turn into
     float pixelScale = 1;       ///< device pixels per pixel of `Stroke::width`
+    float clip[4] = {0, 0, 0, 0};  ///< what has dot(clip.xyz, p) + clip.w < 0 is cut away; world space
     float pull = 0;             ///< brings strokes nearer to the eye by this fraction of their distance, off surfaces
 };
 
