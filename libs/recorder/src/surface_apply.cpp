@@ -191,13 +191,14 @@ void SurfaceStore::descendAll(Lane* lanes, std::uint32_t count) const {
 }
 
 /// Adds the values of one mask, whose bit 0 belongs to `layout`.
-inline void addValues(SurfaceNode* node, const std::uint32_t* record, std::uint32_t mask, const SurfaceLayerLayout* layout) {
+inline void SurfaceStore::addValues(SurfaceNode* node, const std::uint32_t* record, std::uint32_t mask,
+                                    const SurfaceLayerLayout* layout) {
     for (; mask != 0; mask &= mask - 1) {
         const SurfaceLayerLayout& layer = layout[std::countr_zero(mask)];
-        auto* cell = SurfaceStore::cell<SurfaceCell>(node, layer);
-        ++cell->count;
+        auto* count = inNode<std::uint32_t>(node, layer.count);
+        if (++*count == 0) [[unlikely]] spill(count, std::uint64_t(1) << 32);
         const std::uint32_t* value = record + layer.valueWord;
-        double* sums = cell->sums;
+        auto* sums = inNode<double>(node, layer.sums);
         sums[0] += double(std::bit_cast<float>(value[0]));
         if (layer.channels == 3) {
             sums[1] += double(std::bit_cast<float>(value[1]));
@@ -210,12 +211,16 @@ void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
     SurfaceNode* node = lane.node;
     const std::uint32_t* record = lane.record;
     const std::uint32_t mask = record[kPlaceWords];
-    node->points += ~mask & kNotCounted;
+    const std::uint32_t points = node->points += ~mask & kNotCounted;
     const SurfaceLayerLayout* layouts = layouts_.data();
     addValues(node, record, mask >> kFirstMaskFlags, layouts);
     for (std::size_t i = 1; i < maskWords_.size(); ++i)
         addValues(node, record, record[maskWords_[i]], layouts + 32 * i - kFirstMaskFlags);
-    if (node->points >= pointsToDivide_ && !(node->parent & kFinal)) [[unlikely]]
+    if (points & SurfaceNode::kFull) [[unlikely]] {
+        node->points -= SurfaceNode::kFull;
+        spill(&node->points, SurfaceNode::kFull);
+    }
+    if (points >= pointsToDivide_ && points < SurfaceNode::kFinal) [[unlikely]]
         divide(shard, node, record);
 }
 
@@ -230,7 +235,7 @@ SurfaceRef* SurfaceStore::newRoot(SurfaceShard& shard, std::uint32_t face) {
     Page*& page = pages_[face >> pageBits_];
     if (page == nullptr) page = reinterpret_cast<Page*>(allocate(shard, pageBytes_));
     if (page == nullptr) return nullptr;
-    std::byte* node = allocate(shard, nodeBytes_);
+    SurfaceNode* node = allocateNodes(shard, 1);
     if (node == nullptr) {
         shard.full = true;  // from here on, half of all samples may come this way
         return nullptr;
@@ -246,7 +251,7 @@ SurfaceRef* SurfaceStore::binOf(std::uint32_t face) {
         // The budget was divided with room for it.
         auto* node = static_cast<SurfaceNode*>(::operator new(nodeBytes_));
         std::memset(static_cast<void*>(node), 0, nodeBytes_);
-        node->parent = kFinal;
+        node->points = SurfaceNode::kFinal;
         slot = SurfaceRef(node, SurfaceRef::leaf);
         addUsed(nodeBytes_);
     }

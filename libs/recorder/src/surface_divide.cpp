@@ -12,7 +12,7 @@ namespace emca::detail {
 
 /// Divides the triangle of a node, which contains the point of the record, unless that is not to be.
 void SurfaceStore::divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record) {
-    node->parent |= kFinal;
+    node->points |= SurfaceNode::kFinal;
     const std::uint32_t face = record[0];
     std::uint32_t path = record[1], level = 0;
     SurfaceRef* slot = slotOf(face);
@@ -33,11 +33,10 @@ bool SurfaceStore::divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t wh
         if (four == nullptr) return false;
         for (std::uint32_t i = 0; i < 4; ++i) four[i] = {ref.end(i, nodeBytes_), SurfaceRef::leaf};
     }
-    auto* nodes = reinterpret_cast<SurfaceNode*>(allocate(shard, 4 * nodeBytes_));
+    SurfaceNode* nodes = allocateNodes(shard, 4, sizeof(SurfaceNode*));
     if (nodes == nullptr) return false;
+    *SurfaceRef::parentOf(nodes, nodeBytes_) = node;
     const SurfaceRef divided(nodes, SurfaceRef::leaves);
-    for (std::uint32_t i = 0; i < 4; ++i)
-        divided.end(i, nodeBytes_)->parent = reinterpret_cast<std::uintptr_t>(node);
     if (four == nullptr) {
         ref = divided;
     } else {
@@ -57,7 +56,7 @@ bool SurfaceStore::mayDivide(std::uint32_t face, std::uint32_t level) const {
 
 void SurfaceStore::divideAll(double part) {
     flush();
-    pointsToDivide_ = ~std::uint64_t(0);
+    pointsToDivide_ = SurfaceNode::kFinal;
     const double growth = part > 0 ? 1 / part : 1;
     for (std::uint64_t page = 0; storesFaces_ && page << pageBits_ < faceCount_; ++page) {
         if (pages_[page] == nullptr) continue;
@@ -115,16 +114,16 @@ void SurfaceStore::divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_
     SurfaceShard& shard = shards_[shardOf(face)];
     const auto consider = [&](SurfaceRef& at, std::uint32_t which, std::uint32_t itsLevel, double above) {
         SurfaceNode* node = at.end(which, nodeBytes_);
-        const double all = double(node->points) + above;
+        const double own = double(points(node)), all = own + above;
         // As many as a face has that divides at once: its own and a third of that, which it got from those above. Where
         // few are its own, what is above went to its siblings.
-        if (3 * all * growth < 4 * double(options_.samplesPerDivision) || 8 * double(node->points) < all || node->parent & kFinal)
+        if (3 * all * growth < 4 * double(options_.samplesPerDivision) || 8 * own < all || node->isFinal())
             return;
-        node->parent |= kFinal;
+        node->points |= SurfaceNode::kFinal;
         if (mayDivide(face, itsLevel) && !divide(shard, at, which)) bump(shard.refused, 1);
     };
     if (ref.kind() == SurfaceRef::leaf) return consider(ref, 0, level, inherited);
-    const double each = (inherited + double(ref.own()->points)) / 4;
+    const double each = (inherited + double(points(ref.own(nodeBytes_)))) / 4;
     for (std::uint32_t k = 0; k < 4; ++k) {
         if (ref.kind() == SurfaceRef::leaves) {
             consider(ref, k, level + 1, each);  // which may make it an inner one

@@ -29,11 +29,10 @@ struct Columns {
 
 /// Adds what a node holds to a row.
 void addNode(const SurfaceStore& store, const SurfaceNode* node, double factor, double* row) {
-    *row++ += double(node->points) * factor;
+    *row++ += double(store.points(node)) * factor;
     for (const SurfaceLayerLayout& layer : store.layouts()) {
-        const auto* cell = SurfaceStore::cell<const SurfaceCell>(node, layer);
-        *row++ += double(cell->count) * factor;
-        for (int c = 0; c < layer.channels; ++c) *row++ += cell->sums[c] * factor;
+        *row++ += double(store.count(node, layer)) * factor;
+        for (int c = 0; c < layer.channels; ++c) *row++ += store.sums(node, layer)[c] * factor;
     }
 }
 
@@ -46,9 +45,8 @@ struct Totals {
     void add(const SurfaceStore& store, const SurfaceNode* node) {
         for (std::size_t i = 0; i < counts.size(); ++i) {
             const SurfaceLayerLayout& layer = store.layouts()[i];
-            const auto* cell = SurfaceStore::cell<const SurfaceCell>(node, layer);
-            counts[i] += cell->count;
-            const double* s = cell->sums;
+            counts[i] += store.count(node, layer);
+            const double* s = store.sums(node, layer);
             sums[i] += layer.channels == 1 ? s[0] : 0.2126 * s[0] + 0.7152 * s[1] + 0.0722 * s[2];
         }
     }
@@ -122,7 +120,7 @@ class TreeWalk {
         below_.clear();
         inner_.clear();
         row_.assign(width_, 0.0);
-        addNode(store_, root.own(), 1, row_.data());
+        addNode(store_, root.own(store_.nodeBytes()), 1, row_.data());
         if (root.isDivided()) {
             sumUp(root);
         } else {
@@ -151,13 +149,13 @@ class TreeWalk {
         const std::size_t index = inner_.size();
         inner_.push_back(0);
         below_.resize(below_.size() + width_);
-        totals_.add(store_, ref.own());
+        totals_.add(store_, ref.own(store_.nodeBytes()));
         prefetchChildren(ref);
         for (std::uint32_t k = 0; k < 4; ++k) {
             const SurfaceRef child = ref.child(k, store_.nodeBytes());
             if (child.isDivided()) {
                 const std::size_t of = sumUp(child);
-                addNode(store_, child.own(), 1, &below_[index * width_]);
+                addNode(store_, child.own(store_.nodeBytes()), 1, &below_[index * width_]);
                 for (std::uint32_t c = 0; c < width_; ++c) below_[index * width_ + c] += below_[of * width_ + c];
             } else {
                 totals_.add(store_, child.node());
@@ -184,7 +182,7 @@ class TreeWalk {
         std::size_t at = next_;
         for (std::uint32_t k = 0; k < 4; ++k) {
             const SurfaceRef child = ref.child(k, store_.nodeBytes());
-            addNode(store_, child.own(), 1, held + k * width_);
+            addNode(store_, child.own(store_.nodeBytes()), 1, held + k * width_);
             std::copy_n(held + k * width_, width_, given + k * width_);
             if (!child.isDivided()) continue;
             for (std::uint32_t c = 0; c < width_; ++c) held[k * width_ + c] += below_[at * width_ + c];

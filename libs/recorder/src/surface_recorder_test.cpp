@@ -81,17 +81,16 @@ TEST(SurfaceRecorder, AllSamplesOnOnePoint) {
     }
 }
 
-TEST(SurfaceRecorder, ACounterNear32BitsGoesOnExactly) {
+TEST(SurfaceRecorder, ACounterNearItsLimitGoesOnExactly) {
     const std::vector<Mesh> meshes = {grid(1)};
-    const std::uint64_t before = (std::uint64_t(1) << 32) - 1000;
+    const std::uint64_t before = (std::uint64_t(1) << 32) - 1000, pointsBefore = detail::SurfaceNode::kFull - 1000;
     detail::SurfaceStore store({{meshes[0].positions, meshes[0].triangles}}, {.maximumLevel = 0});
     store.addLayer({"density", LayerKind::density, "", ""});
     detail::SurfaceCursorImpl* cursor = store.acquire();
     detail::SurfaceNode* root = store.rootForTest(0);
-    root->points = before;
-    auto* cell = detail::SurfaceStore::cell<detail::SurfaceCell>(root, store.layouts()[0]);
-    cell->count = before;
-    cell->sums[0] = double(before);
+    root->points = static_cast<std::uint32_t>(pointsBefore);
+    *store.counterForTest(root, store.layouts()[0]) = static_cast<std::uint32_t>(before);
+    *const_cast<double*>(store.sums(root, store.layouts()[0])) = double(before);
     for (int i = 0; i < 5000; ++i) {
         std::uint32_t* record = cursor->append(store.shardOf(0));
         for (std::uint32_t word = 0; word < detail::kPlaceWords; ++word) record[word] = 0;  // face 0, at its first vertex
@@ -102,7 +101,8 @@ TEST(SurfaceRecorder, ACounterNear32BitsGoesOnExactly) {
     const SurfaceField field = detail::makeField(store);
     EXPECT_EQ(field.layers[0].samples, before + 5000);
     EXPECT_EQ(field.layers[0].total, double(before + 5000));
-    EXPECT_FLOAT_EQ(field.points[0], float(before + 5000));
+    EXPECT_EQ(store.points(root), pointsBefore + 5000);
+    EXPECT_FLOAT_EQ(field.points[0], float(pointsBefore + 5000));
 }
 
 TEST(SurfaceRecorder, SmallWeightsAreStillAddedToALargeSum) {

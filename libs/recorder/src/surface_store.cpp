@@ -8,6 +8,7 @@
 #include <cstring>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include "emca/core/surface_tree.h"
 
@@ -40,7 +41,7 @@ std::byte* newSlab(std::size_t bytes) {
 SurfaceStore::SurfaceStore(std::vector<SurfaceMeshView> meshes, SurfaceOptions options)
     : meshes_(std::move(meshes)), options_(options) {
     options_.samplesPerDivision = std::max(1u, options_.samplesPerDivision);
-    pointsToDivide_ = options_.samplesPerDivision;
+    pointsToDivide_ = std::min(options_.samplesPerDivision, SurfaceNode::kFull - 1);
     options_.maximumLevel = std::min(options_.maximumLevel, kMaxSurfaceLevel);
 }
 
@@ -57,8 +58,6 @@ const SurfaceLayerLayout& SurfaceStore::addLayer(LayerDescription description) {
     layout.maskWord = maskWords_.back();
     layout.valueWord = static_cast<std::uint16_t>(recordWords_);
     recordWords_ += layout.channels;
-    layout.cell = static_cast<std::uint32_t>(nodeBytes_);
-    nodeBytes_ += sizeof(std::uint64_t) + layout.channels * sizeof(double);
     descriptions_.push_back(std::move(description));
     return layouts_.emplace_back(layout);
 }
@@ -74,8 +73,7 @@ void SurfaceStore::setUp() {
     faceCount_ = faceStarts_.back();
     const double edge = options_.minimumEdge < 0 ? double(box.diagonal()) / 8192 : double(options_.minimumEdge);
     minimumArea_ = edge * edge;
-    // A node never straddles more cache lines than it must.
-    nodeBytes_ = nodeBytes_ <= 64 ? std::bit_ceil(nodeBytes_) : roundUp(nodeBytes_, 32);
+    layOutNodes();
     divideBudget();
     shards_ = std::make_unique<SurfaceShard[]>(shardCount_);
     common_.faceStarts = faceStarts_.data();
@@ -85,6 +83,22 @@ void SurfaceStore::setUp() {
     common_.shardMask = shardCount_ - 1;
     common_.maskWords = maskWords_.data();
     common_.maskWordCount = static_cast<std::uint32_t>(maskWords_.size());
+}
+
+void SurfaceStore::layOutNodes() {
+    nodeBytes_ = sizeof(SurfaceNode);
+    const auto place = [&](std::size_t bytes) { return static_cast<std::uint32_t>(std::exchange(nodeBytes_, nodeBytes_ + bytes)); };
+    for (SurfaceLayerLayout& layer : layouts_) layer.count = place(sizeof(std::uint32_t));
+    nodeBytes_ = roundUp(nodeBytes_, sizeof(double));
+    for (SurfaceLayerLayout& layer : layouts_) layer.sums = place(layer.channels * sizeof(double));
+    // A node never straddles more cache lines than it must.
+    nodeBytes_ = nodeBytes_ <= 64 ? std::bit_ceil(nodeBytes_) : roundUp(nodeBytes_, 32);
+    nodeAlignment_ = std::min<std::size_t>(64, nodeBytes_ & (~nodeBytes_ + 1));
+}
+
+void SurfaceStore::spill(const std::uint32_t* counter, std::uint64_t amount) {
+    const std::lock_guard lock(spilledMutex_);
+    spilled_[counter] += amount;
 }
 
 void SurfaceStore::divideBudget() {
@@ -124,7 +138,7 @@ void SurfaceStore::divideBudget() {
     }
     // All the rest is for nodes.
     const std::size_t nodes = storesFaces_ && budget > taken ? budget - taken : 0;
-    const std::size_t leastChunk = roundUp(std::max(4 * nodeBytes_, pageBytes_), 64);
+    const std::size_t leastChunk = roundUp(std::max(4 * nodeBytes_ + sizeof(SurfaceNode*), pageBytes_) + nodeAlignment_, 64);
     chunkBytes_ = std::max(leastChunk, std::min(kMaximumChunkBytes, nodes / (8 * shardCount_) / 64 * 64));
     chunkCount_ = nodes / chunkBytes_;
     chunksPerSlab_ = std::max<std::uint64_t>(1, std::min<std::uint64_t>(kSlabBytes / chunkBytes_, chunkCount_ / 8));
@@ -133,11 +147,17 @@ void SurfaceStore::divideBudget() {
     slabs_ = std::make_unique<std::atomic<std::byte*>[]>(std::max<std::uint64_t>(1, slabCount_));
 }
 
-std::byte* SurfaceStore::allocate(SurfaceShard& shard, std::size_t bytes) {
-    if (static_cast<std::size_t>(shard.freeEnd - shard.free) < bytes && !nextChunk(shard)) return nullptr;
-    std::byte* memory = shard.free;
-    shard.free += bytes;
+std::byte* SurfaceStore::allocate(SurfaceShard& shard, std::size_t bytes, std::size_t alignment) {
+    const auto gap = [&] { return (~reinterpret_cast<std::uintptr_t>(shard.free) + 1) & (alignment - 1); };
+    const auto left = static_cast<std::size_t>(shard.freeEnd - shard.free);
+    if (left < gap() + bytes && !nextChunk(shard)) return nullptr;
+    std::byte* memory = shard.free + gap();
+    shard.free = memory + bytes;
     return memory;
+}
+
+SurfaceNode* SurfaceStore::allocateNodes(SurfaceShard& shard, std::size_t count, std::size_t more) {
+    return reinterpret_cast<SurfaceNode*>(allocate(shard, count * nodeBytes_ + more, nodeAlignment_));
 }
 
 bool SurfaceStore::nextChunk(SurfaceShard& shard) {

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <unordered_map>
 #include <vector>
 
 #include "emca/recorder/surface_recorder.h"
@@ -20,16 +22,19 @@ inline void bump(std::atomic<std::uint64_t>& counter, std::uint64_t by) {
     counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
-/// A triangle of the subdivision with what was added to it while it was not divided. The layers' cells follow, so that a
-/// sample touches one or a few neighbouring cache lines. Only the owner of its shard reads or writes it.
+/// A triangle of the subdivision with what was added to it while it was not divided. Behind the points come a count for
+/// each layer and then the layers' sums (doubles: a float stops counting at 2^24), so that a sample touches one or a few
+/// neighbouring cache lines: the caches are shared with the renderer. Counters have 32 bits; what does not fit is in
+/// SurfaceStore::spilled_. Only the owner of its shard reads or writes it.
 struct SurfaceNode {
-    std::uint64_t points;
-    std::uintptr_t parent;  ///< address of the node that this one is a quarter of, or 0; lowest bit: never divides (again)
+    static constexpr std::uint32_t kFinal = 1u << 31, kFull = 1u << 30;
+    std::uint32_t points;  ///< kFinal: never divides (again)
+    bool isFinal() const { return (points & kFinal) != 0; }
 };
 
 /// How a triangle is reached: where it ends, without a look at the nodes on the way, whose cache lines stay cold. Not
 /// divided: its node. Divided into four that are not: those nodes, one after the other. Else: the four references of its
-/// children. Zero: nothing yet. The node of a divided triangle is the parent of its children's.
+/// children. Zero: nothing yet. Behind four nodes of one triangle stands the address of that triangle's own.
 ///
 /// Where nothing divides for a while, a face may have a table: an entry for each triangle `levels` below it, so that many
 /// steps become one. An entry is what the way there ends at. In front of the entries stands what the table replaces.
@@ -62,25 +67,23 @@ class SurfaceRef {
         return kind() == inner ? children()[which] : SurfaceRef(end(which, nodeBytes), leaf);
     }
     /// The triangle's own node.
-    const SurfaceNode* own() const {
+    SurfaceNode* own(std::size_t nodeBytes) const {
         if (kind() == leaf) return node();
-        const SurfaceNode* below = kind() == leaves ? node() : children()[0].own();
-        return reinterpret_cast<const SurfaceNode*>(below->parent & ~std::uintptr_t(1));
+        const SurfaceNode* below = kind() == leaves ? node() : children()[0].own(nodeBytes);
+        return *parentOf(below, nodeBytes);
+    }
+    /// Where the address of their parent stands. \param nodes  the first of four
+    static SurfaceNode** parentOf(const SurfaceNode* nodes, std::size_t nodeBytes) {
+        return reinterpret_cast<SurfaceNode**>(reinterpret_cast<std::uintptr_t>(nodes) + 4 * nodeBytes);
     }
 
   private:
     std::uintptr_t word_ = 0;
 };
 
-/// What one layer knows of one node, followed by `channels` sums. Doubles: a float stops counting at 2^24.
-struct SurfaceCell {
-    std::uint64_t count;
-    double sums[1];
-};
-
 /// Where a layer is in nodes and in records.
 struct SurfaceLayerLayout {
-    std::uint32_t cell = 0;  ///< byte offset in a node
+    std::uint32_t count = 0, sums = 0;  ///< byte offsets in a node; `channels` sums
     std::uint16_t maskWord = 0, valueWord = 0;
     std::uint8_t bit = 0, channels = 1;
 };
@@ -160,11 +163,17 @@ class SurfaceStore {
     std::uint64_t facesPerRun() const { return std::uint64_t(1) << (pageBits_ + runBits_); }
     /// Makes the root of a face exist, for tests that begin with full counters.
     SurfaceNode* rootForTest(std::uint32_t face);
+    std::uint32_t* counterForTest(SurfaceNode* node, const SurfaceLayerLayout& layer) { return inNode<std::uint32_t>(node, layer.count); }
 
-    template <typename Cell, typename Node>
-    static Cell* cell(Node* node, const SurfaceLayerLayout& layer) {
-        using Byte = std::conditional_t<std::is_const_v<Node>, const std::byte, std::byte>;
-        return reinterpret_cast<Cell*>(reinterpret_cast<Byte*>(node) + layer.cell);
+    std::uint64_t points(const SurfaceNode* node) const {
+        return (node->points & ~SurfaceNode::kFinal) + spilled(&node->points);
+    }
+    std::uint64_t count(const SurfaceNode* node, const SurfaceLayerLayout& layer) const {
+        const auto* counter = inNode<const std::uint32_t>(node, layer.count);
+        return *counter + spilled(counter);
+    }
+    const double* sums(const SurfaceNode* node, const SurfaceLayerLayout& layer) const {
+        return inNode<const double>(node, layer.sums);
     }
 
     SurfaceCounts counts() const;
@@ -184,8 +193,20 @@ class SurfaceStore {
   private:
     struct Page { SurfaceRef roots[1]; };
     struct Lane;
-    static constexpr std::uintptr_t kFinal = 1;  ///< in SurfaceNode::parent
 
+    template <typename T, typename Node>
+    static T* inNode(Node* node, std::uint32_t offset) {
+        using Byte = std::conditional_t<std::is_const_v<Node>, const std::byte, std::byte>;
+        return reinterpret_cast<T*>(reinterpret_cast<Byte*>(node) + offset);
+    }
+    void spill(const std::uint32_t* counter, std::uint64_t amount);
+    /// What a counter lacks. Not while threads record.
+    std::uint64_t spilled(const std::uint32_t* counter) const {
+        if (spilled_.empty()) [[likely]] return 0;
+        const auto found = spilled_.find(counter);
+        return found == spilled_.end() ? 0 : found->second;
+    }
+    void layOutNodes();
     void divideBudget();
     void applyWaiting(SurfaceShard& shard);
     void apply(SurfaceShard& shard, SurfaceBlock& block);
@@ -194,6 +215,7 @@ class SurfaceStore {
     void enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
     void descendAll(Lane* lanes, std::uint32_t count) const;
     void addRecord(SurfaceShard& shard, Lane& lane);
+    void addValues(SurfaceNode* node, const std::uint32_t* record, std::uint32_t mask, const SurfaceLayerLayout* layout);
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
     void divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited, double growth);
@@ -202,7 +224,10 @@ class SurfaceStore {
     SurfaceRef* slotOf(std::uint32_t face) const;
     SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
     SurfaceRef* binOf(std::uint32_t face);
-    std::byte* allocate(SurfaceShard& shard, std::size_t bytes);  ///< zeros; null beyond the budget
+    /// Zeros; null beyond the budget. \param alignment  a power of two up to 64
+    std::byte* allocate(SurfaceShard& shard, std::size_t bytes, std::size_t alignment = alignof(SurfaceRef));
+    /// Nodes, one after the other, and `more` bytes.
+    SurfaceNode* allocateNodes(SurfaceShard& shard, std::size_t count, std::size_t more = 0);
     bool nextChunk(SurfaceShard& shard);
 
     std::vector<SurfaceMeshView> meshes_;
@@ -210,12 +235,12 @@ class SurfaceStore {
     std::vector<std::uint64_t> faceStarts_;
     std::uint64_t faceCount_ = 0;
     double minimumArea_ = 0;
-    std::uint64_t pointsToDivide_ = 0;  ///< of a node
+    std::uint32_t pointsToDivide_ = 0;  ///< of a node; SurfaceNode::kFinal: none divides
 
     std::vector<LayerDescription> descriptions_;
     std::vector<SurfaceLayerLayout> layouts_;
     std::vector<std::uint16_t> maskWords_;
-    std::size_t nodeBytes_ = sizeof(SurfaceNode);
+    std::size_t nodeBytes_ = 0, nodeAlignment_ = 0;
     std::uint32_t recordWords_ = kPlaceWords;
 
     SurfaceCursorState common_;
@@ -230,6 +255,8 @@ class SurfaceStore {
     std::uint64_t slabCount_ = 0, runCount_ = 0;
     std::atomic<std::uint64_t> nextChunk_{0};
     std::atomic<std::uint64_t> bytesUsed_{0};
+    std::mutex spilledMutex_;  // taken once in a thousand million samples
+    std::unordered_map<const std::uint32_t*, std::uint64_t> spilled_;
 
     mutable std::mutex cursorsMutex_;  // threads come and go rarely
     std::vector<std::unique_ptr<SurfaceCursorImpl>> cursors_;
