@@ -8,11 +8,12 @@ from typing import Any, List, Optional, Sequence
 import numpy as np
 
 from . import _native
+from .settings import RenderSettings
 
 __all__ = ["Image"]
 
 
-class Image:
+class Image(RenderSettings):
     """An image and the settings that it was rendered with.
 
     Make one of any array to put it into a session: ``emca.Image(array, title="reference")``.
@@ -68,10 +69,6 @@ class Image:
         """Names of the channels of ``pixels``."""
         return self._native.channels()
 
-    @functools.cached_property
-    def _settings(self) -> dict:
-        return self._native.settings()
-
     @property
     def title(self) -> str:
         """For people."""
@@ -91,26 +88,6 @@ class Image:
     def render_id(self) -> int:
         """Under which the server keeps it; 0 of an image from elsewhere."""
         return self._settings["render_id"]
-
-    @property
-    def samples_per_pixel(self) -> int:
-        """0 if unknown."""
-        return self._settings["samples_per_pixel"]
-
-    @property
-    def seed(self) -> int:
-        """That it was rendered with."""
-        return self._settings["seed"]
-
-    @property
-    def integrator(self) -> str:
-        """That it was rendered with; may be empty."""
-        return self._settings["integrator"]
-
-    @property
-    def sampler(self) -> str:
-        """That it was rendered with; may be empty."""
-        return self._settings["sampler"]
 
     def __array__(self, dtype: Any = None) -> np.ndarray:
         return self.pixels if dtype is None else self.pixels.astype(dtype, copy=False)

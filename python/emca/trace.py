@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _native
 from .paths import PathSet
+from .settings import RenderSettings
 
 __all__ = ["Trace", "Replay", "MatchCounts"]
 
@@ -57,7 +58,7 @@ class MatchCounts:
         return f"<MatchCounts: {self.matched} of {self.paths} paths; {self.unknown} unknown, {self.omitted} omitted>"
 
 
-class Trace:
+class Trace(RenderSettings):
     """Recorded paths of the pixels that were asked for, and how the replay went."""
 
     def __init__(self, native: "_native.Trace"):
@@ -99,30 +100,6 @@ class Trace:
         """What the recording had to leave out: dropped_without_path, dropped_without_vertex, dropped_by_budget (values),
         paths_not_kept, and the bytes in use at its end."""
         return self._native.stats()
-
-    @functools.cached_property
-    def _settings(self) -> dict:
-        return self._native.settings()
-
-    @property
-    def samples_per_pixel(self) -> int:
-        """That it was replayed with."""
-        return self._settings["samples_per_pixel"]
-
-    @property
-    def seed(self) -> int:
-        """That it was replayed with."""
-        return self._settings["seed"]
-
-    @property
-    def integrator(self) -> str:
-        """That it was replayed with."""
-        return self._settings["integrator"]
-
-    @property
-    def sampler(self) -> str:
-        """That it was replayed with."""
-        return self._settings["sampler"]
 
     @property
     def render_id(self) -> int:
