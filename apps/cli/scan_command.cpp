@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "csv.h"
 #include "emca/analysis/format.h"
 #include "emca/client/session.h"
 #include "emca/imageio/imageio.h"
@@ -149,11 +150,16 @@ Json scanJson(const Scanned& scanned, const std::string& query) {
 
 std::string scanCsv(const Scanned& scanned) {
     const PathSet& paths = scanned.brightest.paths;
-    std::string text = "x,y,sample,part,depth,luminance,r,g,b,events\n";
+    std::string text = csvLine({"x", "y", "sample", "part", "depth", "luminance", "r", "g", "b", "events"});
+    const auto field = [](const auto& value) { return fmt::format("{}", value); };
     for (const Index p : scanned.order) {
-        const Color e = paths.estimate(p).value_or(Color(0.f));
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", paths.pixel(p).x, paths.pixel(p).y, paths.sample(p), paths.part(p),
-                            paths.depth(p), luminance(e), e.r, e.g, e.b, eventLetters(paths, p));
+        std::vector<std::string> fields{field(paths.pixel(p).x), field(paths.pixel(p).y), field(paths.sample(p)), field(paths.part(p)),
+                                        field(paths.depth(p))};
+        const auto e = paths.estimate(p);
+        for (const float value : e ? std::array{luminance(*e), e->r, e->g, e->b} : std::array<float, 4>{})
+            fields.push_back(e ? field(value) : std::string());
+        fields.push_back(eventLetters(paths, p));
+        text += csvLine(fields);
     }
     return text;
 }
