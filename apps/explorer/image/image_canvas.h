@@ -3,7 +3,7 @@
 #include <QWidget>
 #include <optional>
 
-#include "image/image_pixels.h"
+#include "image/image_model.h"
 #include "image/image_transform.h"
 
 namespace emca::explorer {
@@ -11,11 +11,12 @@ namespace emca::explorer {
 class Theme;
 
 /// The picture itself: paints what is visible of it, zooms and pans, says what is under the cursor and what was clicked.
-/// Wheel zooms at the cursor; middle button, Space or Ctrl with the left button pan; double click fits.
+/// Wheel zooms at the cursor; middle button, Space or Ctrl with the left button pan. Image and reference lie at the same
+/// place; where both are shown, the line between them is dragged.
 class ImageCanvas : public QWidget {
     Q_OBJECT
   public:
-    ImageCanvas(ImagePixels& pixels, Theme& theme, QWidget* parent = nullptr);
+    ImageCanvas(const ImageModel& model, Theme& theme, QWidget* parent = nullptr);
 
     const ImageTransform& transform() const { return transform_; }
     std::optional<Pixel> hovered() const { return hovered_; }
@@ -28,6 +29,9 @@ class ImageCanvas : public QWidget {
     void zoomBy(double factor);
     /// Brings a pixel to the middle, large enough to tell it from its neighbours.
     void focusOn(Pixel pixel);
+    /// Where the line of ImageMode::split is, as a share of the widget's width.
+    double split() const { return split_; }
+    void setSplit(double share);
     QSize sizeHint() const override { return {480, 360}; }
 
   signals:
@@ -54,19 +58,28 @@ class ImageCanvas : public QWidget {
     void changed();
     QPointF zoomAnchor() const;
     void updatePixel(std::optional<Pixel> pixel);
-    void paintPicture(QPainter& painter, const QRect& area);
+    int splitX() const;                ///< in widget pixels
+    bool isOnSplit(QPointF at) const;
+    void showCursor(QPointF at);
+    // image_canvas_paint.cpp
+    void paintSide(QPainter& painter, const QRect& area, const ImagePixels& pixels, const ImageContent& content);
+    void paintPicture(QPainter& painter, const QRect& area, const Picture& picture);
     void paintGrid(QPainter& painter, const QRect& area);
-    void paintNumbers(QPainter& painter, const QRect& area);
-    void paintInvalid(QPainter& painter);
+    void paintNumbers(QPainter& painter, const QRect& area, const Picture& picture, const Image& values);
+    void paintInvalid(QPainter& painter, const InvalidPixels& invalid);
     void paintMarker(QPainter& painter);
-    /// Pixels that intersect an area of the widget.
-    PixelRect pixelsIn(const QRect& area) const;
+    void paintSplit(QPainter& painter);
+    void paintTag(QPainter& painter, const QString& text, int x, Qt::Alignment side);
+    /// Pixels of an image of this size that intersect an area of the widget.
+    PixelRect pixelsIn(const QRect& area, QSize image) const;
 
-    ImagePixels& pixels_;
+    const ImageModel& model_;
     Theme& theme_;
     ImageTransform transform_;
     std::optional<Pixel> hovered_, marked_;
     std::optional<QPointF> panFrom_, pressedAt_;
+    double split_ = 0.5;
+    bool splitting_ = false;           ///< the line is being dragged
     bool space_ = false;
 };
 

@@ -17,6 +17,8 @@
 #include "base/qt_compat.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
+#include "image/image_actions.h"
+#include "image/image_model.h"
 
 namespace emca::explorer {
 namespace {
@@ -31,34 +33,69 @@ QToolButton* toggle(const QString& text, const QString& tip) {
     return button;
 }
 
+QToolButton* menuButton(const char* name, const QString& text, const QString& tip, QMenu* menu) {
+    auto* button = new QToolButton;
+    button->setObjectName(name);
+    button->setText(text);
+    button->setToolTip(tip);
+    button->setPopupMode(QToolButton::InstantPopup);
+    button->setMenu(menu);
+    return button;
+}
+
 QLabel* muted(const QString& text) {
     auto* label = new QLabel(text);
     label->setProperty("role", "muted");
     return label;
 }
 
+QString numberText(double value) { return toQString(analysis::formatNumber(value)); }
+
+/// "Luminance", "diffuse", "standard error"; long names are cut.
+QString channelText(const ImageDisplay& display) {
+    const bool error = display.samplingError && display.mode != ImageMode::difference;
+    QString shown = toQString(error ? display.quantity() : text(display.channel));
+    if (error && display.channel.kind != ChannelSelect::Kind::color) shown += QStringLiteral(", ") + toQString(text(display.channel));
+    return shown.size() > 22 ? shown.left(21) + QStringLiteral("…") : shown;
+}
+
 }  // namespace
 
-ImageControls::ImageControls(Theme& theme, QWidget* parent)
-    : QWidget(parent), theme_(theme), pages_(new QStackedWidget),
+ImageControls::ImageControls(ImageModel& model, ImageActions& actions, Theme& theme, QWidget* parent)
+    : QWidget(parent), model_(model), actions_(actions), theme_(theme), pages_(new QStackedWidget),
       falseColor_(toggle(tr("False colour"), tr("Show luminance or a channel through a colour map (C)"))),
-      display_(new QToolButton) {
+      channel_(menuButton("channel", tr("RGB"), tr("Channel, or spread of the samples (H next, Shift+H previous)"), channelMenu())),
+      display_(menuButton("display", tr("Display"), tr("Transfer curve (G) and marks"), displayMenu())) {
     falseColor_->setObjectName("falseColor");
-    display_->setText(tr("Display"));
-    display_->setToolTip(tr("Channel, transfer curve and marks"));
-    display_->setPopupMode(QToolButton::InstantPopup);
-    display_->setMenu(displayMenu());
     pages_->addWidget(tonePage());
     pages_->addWidget(falseColorPage());
     pages_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(Spacing::medium, Spacing::tiny, Spacing::small, Spacing::tiny);
-    layout->setSpacing(Spacing::small);
+    layout->setSpacing(Spacing::tiny);
     layout->addWidget(pages_, 1);
-    layout->addWidget(falseColor_);
-    layout->addWidget(display_);
-    connect(falseColor_, &QToolButton::clicked, this, &ImageControls::toggleFalseColor);
-    showStyle();
+    for (QToolButton* button : {falseColor_, channel_, display_}) layout->addWidget(button);
+    connect(falseColor_, &QToolButton::clicked, this, [this] {
+        actions_.toggleFalseColor();
+        refresh();
+    });
+    connect(&model_, &ImageModel::displayChanged, this, &ImageControls::refresh);
+    refresh();
+}
+
+template <typename Change>
+void ImageControls::change(Change change) {
+    ImageDisplay display = model_.display();
+    change(display);
+    model_.setDisplay(display);
+}
+
+template <typename Change>
+void ImageControls::addChoice(QMenu* menu, const QString& text, bool on, Change changes) {
+    QAction* action = menu->addAction(text);
+    action->setCheckable(true);
+    action->setChecked(on);
+    connect(action, &QAction::triggered, this, [this, changes] { change(changes); });
 }
 
 QWidget* ImageControls::tonePage() {
@@ -84,14 +121,9 @@ QWidget* ImageControls::tonePage() {
     layout->addWidget(exposure_, 1);
     layout->addWidget(exposureValue_);
     layout->addWidget(reset);
-    const auto set = [this](double stops) {
-        ImageStyle style = style_;
-        style.toneMap.exposure = static_cast<float>(stops);
-        edited(style);
-    };
-    connect(exposure_, &QSlider::valueChanged, this, [set](int v) { set(v / 10.0); });
-    connect(exposureValue_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, set);
-    connect(reset, &QToolButton::clicked, this, [set] { set(0); });
+    connect(exposure_, &QSlider::valueChanged, this, [this](int v) { actions_.setExposure(v / 10.0); });
+    connect(exposureValue_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double v) { actions_.setExposure(v); });
+    connect(reset, &QToolButton::clicked, this, [this] { actions_.setExposure(0); });
     return page;
 }
 
@@ -99,137 +131,148 @@ QWidget* ImageControls::falseColorPage() {
     auto* page = new QWidget;
     auto* layout = new QHBoxLayout(page);
     layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(Spacing::tiny);
     map_ = new QComboBox;
+    map_->setObjectName("colorMap");
+    map_->setToolTip(tr("Colour map"));
     for (std::size_t i = 0; i < analysis::kColorMapCount; ++i)
         map_->addItem(toQString(analysis::name(static_cast<analysis::ColorMapId>(i))));
+    map_->setMaxVisibleItems(static_cast<int>(analysis::kColorMapCount));
     minimum_ = new QLineEdit;
+    minimum_->setObjectName("rangeMinimum");
     maximum_ = new QLineEdit;
+    maximum_->setObjectName("rangeMaximum");
     for (QLineEdit* edit : {minimum_, maximum_}) {
         edit->setFixedWidth(84);
         edit->setAlignment(Qt::AlignRight);
         edit->setFont(theme_.numberFont());
+        edit->setToolTip(edit == minimum_ ? tr("Value of the first colour") : tr("Value of the last colour"));
         connect(edit, &QLineEdit::editingFinished, this, &ImageControls::rangeTyped);
     }
-    auto* automatic = new QToolButton;
-    automatic->setText(tr("Auto"));
-    automatic->setToolTip(tr("From the 0.5th to the 99.5th percentile of the image"));
+    automatic_ = toggle(tr("Auto"), {});
+    automatic_->setObjectName("automaticRange");
+    automatic_->setPopupMode(QToolButton::MenuButtonPopup);
+    automatic_->setMenu(rangeMenu());
     log_ = toggle(tr("Log"), tr("Logarithmic colours (L)"));
+    log_->setObjectName("logColors");
     layout->addWidget(map_);
     layout->addWidget(minimum_);
     layout->addWidget(muted(QStringLiteral("–")));
     layout->addWidget(maximum_);
-    layout->addWidget(automatic);
+    layout->addWidget(automatic_);
     layout->addWidget(log_);
     layout->addStretch(1);
-    connect(map_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
-        ImageStyle style = style_;
-        style.colorMap = static_cast<analysis::ColorMapId>(index);
-        edited(style);
+    connect(map_, qOverload<int>(&QComboBox::activated), this, [this](int index) {
+        change([index](ImageDisplay& d) { d.scale().colorMap = static_cast<analysis::ColorMapId>(index); });
     });
-    connect(automatic, &QToolButton::clicked, this, &ImageControls::automaticRangeWanted);
-    connect(log_, &QToolButton::clicked, this, &ImageControls::toggleLog);
+    connect(automatic_, &QToolButton::clicked, this, [this] { model_.setAutomaticRange(model_.display().tail); });
+    connect(log_, &QToolButton::clicked, this, [this] {
+        actions_.toggleLog();
+        refresh();
+    });
     return page;
 }
 
-QMenu* ImageControls::displayMenu() {
+QMenu* ImageControls::rangeMenu() {
     auto* menu = new QMenu(this);
-    // Filled when it opens, because the channels are those of the image.
     connect(menu, &QMenu::aboutToShow, this, [this, menu] {
         menu->clear();
-        const auto choice = [&](const QString& text, bool on, auto change) {
+        menu->addSection(tr("Range of the pixels"));
+        for (const double tail : {0.0, 0.001, 0.005, 0.02, 0.05}) {
+            const QString text = tail == 0 ? tr("All") : tr("%1 % to %2 %").arg(100 * tail).arg(100 - 100 * tail);
             QAction* action = menu->addAction(text);
             action->setCheckable(true);
-            action->setChecked(on);
-            connect(action, &QAction::triggered, this, [this, change] {
-                ImageStyle style = style_;
-                change(style);
-                edited(style);
-            });
-        };
-        menu->addSection(tr("Channel"));
-        choice(style_.falseColor ? tr("Luminance") : tr("Colour"), style_.channel.index < 0, [](ImageStyle& s) { s.channel.index = -1; });
-        for (std::size_t i = 0; i < channels_.size(); ++i)
-            choice(toQString(channels_[i]), style_.channel.index == static_cast<int>(i),
-                   [i](ImageStyle& s) { s.channel.index = static_cast<int>(i); });
-        menu->addSection(tr("Transfer"));
-        const auto transfer = [&](const QString& text, analysis::Transfer t) {
-            choice(text, style_.toneMap.transfer == t, [t](ImageStyle& s) { s.toneMap.transfer = t; });
-        };
-        transfer(tr("sRGB"), analysis::Transfer::srgb);
-        transfer(tr("Gamma 2.2"), analysis::Transfer::gamma);
-        transfer(tr("Linear"), analysis::Transfer::linear);
-        menu->addSection(tr("Marks"));
-        choice(tr("NaN, infinite and negative pixels"), style_.toneMap.markInvalid,
-               [](ImageStyle& s) { s.toneMap.markInvalid = !s.toneMap.markInvalid; });
-        choice(tr("Clipped pixels"), style_.toneMap.markClipped, [](ImageStyle& s) { s.toneMap.markClipped = !s.toneMap.markClipped; });
+            action->setChecked(model_.display().scale().automatic && model_.display().tail == tail);
+            connect(action, &QAction::triggered, this, [this, tail] { model_.setAutomaticRange(tail); });
+        }
     });
     return menu;
 }
 
-void ImageControls::setStyle(const ImageStyle& style) {
-    style_ = style;
-    showStyle();
+QMenu* ImageControls::channelMenu() {
+    auto* menu = new QMenu(this);
+    // Filled when it opens, because the channels are those of the image.
+    connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+        menu->clear();
+        menu->setToolTipsVisible(true);
+        const ImageDisplay& display = model_.display();
+        menu->addSection(tr("Channel"));
+        if (model_.content().values)
+            for (const ChannelSelect& select : channelsOf(*model_.content().values))
+                addChoice(menu, toQString(text(select)), display.channel == select, [select](ImageDisplay& d) { d.channel = select; });
+        menu->addSection(tr("Spread of the samples"));
+        addChoice(menu, tr("None: the pixel's value"), !display.samplingError, [](ImageDisplay& d) { d.samplingError.reset(); });
+        const bool known = model_.image() && analysis::hasVariance(*model_.image());
+        for (std::size_t e = 0; e < analysis::kSamplingErrorCount; ++e) {
+            const auto error = static_cast<analysis::SamplingError>(e);
+            QString name = toQString(analysis::name(error));
+            name[0] = name[0].toUpper();
+            addChoice(menu, name, display.samplingError == error, [error](ImageDisplay& d) {
+                d.samplingError = error;
+                if (d.mode == ImageMode::difference) d.mode = ImageMode::image;
+            });
+            menu->actions().back()->setEnabled(known);
+            if (!known) menu->actions().back()->setToolTip(tr("This image came without samples and variance per pixel"));
+        }
+    });
+    return menu;
 }
 
-void ImageControls::setChannels(const std::vector<std::string>& channels) {
-    channels_ = channels;
-    if (style_.channel.index < static_cast<int>(channels.size())) return;
-    ImageStyle style = style_;
-    style.channel.index = analysis::ChannelChoice::kLuminance;
-    edited(style);
+QMenu* ImageControls::displayMenu() {
+    auto* menu = new QMenu(this);
+    connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+        menu->clear();
+        const analysis::ToneMap& tone = model_.display().toneMap;
+        menu->addSection(tr("Transfer"));
+        addChoice(menu, tr("sRGB"), tone.transfer == analysis::Transfer::srgb, [](ImageDisplay& d) { d.toneMap.transfer = analysis::Transfer::srgb; });
+        for (const float gamma : {1.8f, 2.2f, 2.4f})
+            addChoice(menu, tr("Gamma %1").arg(double(gamma)), tone.transfer == analysis::Transfer::gamma && tone.gamma == gamma, [gamma](ImageDisplay& d) {
+                d.toneMap.transfer = analysis::Transfer::gamma;
+                d.toneMap.gamma = gamma;
+            });
+        addChoice(menu, tr("Linear"), tone.transfer == analysis::Transfer::linear, [](ImageDisplay& d) { d.toneMap.transfer = analysis::Transfer::linear; });
+        menu->addSection(tr("Marks"));
+        addChoice(menu, tr("NaN, infinite and negative pixels"), tone.markInvalid,
+                  [](ImageDisplay& d) { d.toneMap.markInvalid = !d.toneMap.markInvalid; });
+        addChoice(menu, tr("Clipped pixels"), tone.markClipped, [](ImageDisplay& d) { d.toneMap.markClipped = !d.toneMap.markClipped; });
+    });
+    return menu;
 }
 
-void ImageControls::edited(const ImageStyle& style) {
-    if (style == style_) return;
-    style_ = style;
-    showStyle();
-    emit styleChanged();
-}
-
-void ImageControls::showStyle() {
+void ImageControls::refresh() {
+    const ImageDisplay& display = model_.display();
+    const ImageStyle style = display.style();
     const QSignalBlocker a(exposure_), b(exposureValue_), c(map_);
-    exposure_->setValue(static_cast<int>(std::lround(style_.toneMap.exposure * 10)));
-    exposureValue_->setValue(double(style_.toneMap.exposure));
-    pages_->setCurrentIndex(style_.falseColor ? 1 : 0);
-    falseColor_->setChecked(style_.falseColor);
-    log_->setChecked(style_.range.log);
-    map_->setCurrentIndex(static_cast<int>(style_.colorMap));
-    minimum_->setText(toQString(analysis::formatNumber(style_.range.min)));
-    maximum_->setText(toQString(analysis::formatNumber(style_.range.max)));
+    exposure_->setValue(static_cast<int>(std::lround(style.toneMap.exposure * 10)));
+    exposureValue_->setValue(double(style.toneMap.exposure));
+    pages_->setCurrentIndex(style.falseColor ? 1 : 0);
+    falseColor_->setChecked(style.falseColor);
+    falseColor_->setEnabled(!display.mustBeFalseColor());
+    log_->setChecked(style.range.log);
+    log_->setEnabled(!display.mustBeFalseColor());
+    automatic_->setChecked(display.scale().automatic);
+    automatic_->setToolTip(display.tail > 0 ? tr("From the %1th to the %2th percentile of the pixels").arg(100 * display.tail).arg(100 - 100 * display.tail)
+                                            : tr("From the smallest to the largest value"));
+    map_->setCurrentIndex(static_cast<int>(style.colorMap));
+    minimum_->setText(numberText(style.range.min));
+    maximum_->setText(numberText(style.range.max));
+    if (const QString shown = channelText(display); shown != channel_->text()) channel_->setText(shown);
 }
 
 void ImageControls::rangeTyped() {
-    bool first = false, second = false;
-    ImageStyle style = style_;
-    style.range.min = minimum_->text().toDouble(&first);
-    style.range.max = maximum_->text().toDouble(&second);
-    if (first && second) style.range = style.range.repaired();
-    else style.range = style_.range;
+    const analysis::ValueRange before = model_.display().scale().range;
     // What was typed has fewer digits than what is kept: only a change of the text is an edit.
-    const bool same = minimum_->text() == toQString(analysis::formatNumber(style_.range.min)) &&
-                      maximum_->text() == toQString(analysis::formatNumber(style_.range.max));
-    if (!same) edited(style);
-    showStyle();
-}
-
-void ImageControls::changeExposure(double byStops) {
-    ImageStyle style = style_;
-    style.toneMap.exposure = static_cast<float>(std::clamp(double(style.toneMap.exposure) + byStops, -kMostStops, kMostStops));
-    edited(style);
-}
-
-void ImageControls::toggleFalseColor() {
-    ImageStyle style = style_;
-    style.falseColor = !style.falseColor;
-    edited(style);
-}
-
-void ImageControls::toggleLog() {
-    ImageStyle style = style_;
-    style.range.log = !style.range.log;
-    style.range = style.range.repaired();
-    edited(style);
-    if (style_.range.log) emit automaticRangeWanted();
+    if (minimum_->text() == numberText(before.min) && maximum_->text() == numberText(before.max)) return;
+    bool first = false, second = false;
+    analysis::ValueRange range = before;
+    range.min = minimum_->text().toDouble(&first);
+    range.max = maximum_->text().toDouble(&second);
+    if (first && second)
+        change([&](ImageDisplay& d) {
+            d.scale().range = range.repaired();
+            d.scale().automatic = false;
+        });
+    refresh();
 }
 
 }  // namespace emca::explorer

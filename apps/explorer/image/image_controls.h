@@ -2,7 +2,7 @@
 
 #include <QWidget>
 
-#include "image/image_pixels.h"
+#include "image/image_display.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -14,48 +14,43 @@ class QToolButton;
 
 namespace emca::explorer {
 
+class ImageActions;
+class ImageModel;
 class Theme;
 
-/// The row below the picture: exposure, or the range and map of false colour, and the menu of what is shown.
+/// The row below the picture: exposure, or range and map of false colour; the channel; the menu of how it is displayed.
 class ImageControls : public QWidget {
     Q_OBJECT
   public:
-    explicit ImageControls(Theme& theme, QWidget* parent = nullptr);
-
-    const ImageStyle& style() const { return style_; }
-    void setStyle(const ImageStyle& style);
-    /// Names offered besides luminance.
-    void setChannels(const std::vector<std::string>& channels);
-
-  public slots:
-    void changeExposure(double byStops);
-    void toggleFalseColor();
-    void toggleLog();
-
-  signals:
-    void styleChanged();
-    /// The range shall be found from the image.
-    void automaticRangeWanted();
+    ImageControls(ImageModel& model, ImageActions& actions, Theme& theme, QWidget* parent = nullptr);
 
   private:
     QWidget* tonePage();
     QWidget* falseColorPage();
+    QMenu* rangeMenu();
+    QMenu* channelMenu();
     QMenu* displayMenu();
-    void edited(const ImageStyle& style);
-    void showStyle();
+    void refresh();
     void rangeTyped();
+    /// Changes a copy of what is displayed and hands it to the model.
+    template <typename Change>
+    void change(Change change);
+    template <typename Change>
+    void addChoice(QMenu* menu, const QString& text, bool on, Change change);
 
+    ImageModel& model_;
+    ImageActions& actions_;
     Theme& theme_;
-    ImageStyle style_;
-    std::vector<std::string> channels_;
     QStackedWidget* pages_;
     QSlider* exposure_ = nullptr;
     QDoubleSpinBox* exposureValue_ = nullptr;
     QToolButton* falseColor_;
     QToolButton* log_ = nullptr;
+    QToolButton* automatic_ = nullptr;
     QComboBox* map_ = nullptr;
     QLineEdit* minimum_ = nullptr;
     QLineEdit* maximum_ = nullptr;
+    QToolButton* channel_;
     QToolButton* display_;
 };
 

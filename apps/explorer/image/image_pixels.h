@@ -9,24 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "emca/analysis/color_map.h"
-#include "emca/analysis/tone_map.h"
-#include "emca/core/image.h"
+#include "image/image_display.h"
 
 namespace emca::explorer {
-
-/// How an image is shown: by a tone map, or as numbers through a colour map.
-struct ImageStyle {
-    analysis::ToneMap toneMap;
-    bool falseColor = false;
-    analysis::ColorMapId colorMap = analysis::ColorMapId::viridis;
-    analysis::ValueRange range;                       ///< of false colour
-    analysis::ChannelChoice channel;
-    friend bool operator==(const ImageStyle& a, const ImageStyle& b) {
-        return a.toneMap == b.toneMap && a.falseColor == b.falseColor && a.colorMap == b.colorMap && a.range == b.range &&
-               a.channel.index == b.channel.index;
-    }
-};
 
 /// Pixels that are no radiance.
 struct InvalidPixels {
@@ -35,10 +20,29 @@ struct InvalidPixels {
     std::size_t nan = 0, infinite = 0, negative = 0;  ///< how many there are
     std::size_t count() const { return nan + infinite + negative; }
 };
-InvalidPixels findInvalid(const Image& image);
+InvalidPixels findInvalid(const Image& image, bool negativeIsInvalid = true);
 
-/// The image as the screen shows it. Large images are converted by other threads while the earlier picture stays; small
-/// ones and changed rows of a preview at once. GUI thread.
+/// A picture and the same at half, a quarter, … of its size, averaged, for zooms below 1. They share memory with their
+/// copies, may be made by any thread, and are drawn by the GUI thread.
+class Picture {
+  public:
+    Picture() = default;
+    Picture(std::uint32_t width, std::uint32_t height);
+    bool isNull() const { return levels_.empty(); }
+    const QImage& full() const { return levels_.front(); }
+    /// At most halved so often; fewer times where one pixel is left.
+    const QImage& reduced(int halvings) const;
+    /// Converts some rows. A whole picture is made of bands, so that the GUI thread can do other things in between.
+    void convert(const Image& image, const ImageStyle& style, std::uint32_t firstRow, std::uint32_t lastRow);
+
+  private:
+    void reduce(std::uint32_t firstRow, std::uint32_t lastRow);
+    std::vector<std::shared_ptr<std::vector<std::uint8_t>>> bytes_;   ///< RGBA, row by row, of each level
+    std::vector<QImage> levels_;                                      ///< views of them
+};
+
+/// An image as the screen shows it. Large images are converted by another thread while the earlier picture stays; small
+/// ones at once; those that change in place (previews) band by band between other events. GUI thread.
 class ImagePixels : public QObject {
     Q_OBJECT
   public:
@@ -46,37 +50,37 @@ class ImagePixels : public QObject {
     ~ImagePixels() override;
 
     /// \param image  null for none
-    void set(std::shared_ptr<const RenderedImage> image, const ImageStyle& style);
+    /// \param changes  it is written to by this thread from time to time: no other thread reads it
+    void set(std::shared_ptr<const Image> image, const ImageStyle& style, bool changes = false);
     /// The pixels of a preview changed in place. A few pictures a second are made of them: what comes sooner is shown a
     /// little later. Invalid pixels are counted when the render is complete.
     void refresh();
-    void setStyle(const ImageStyle& style) { set(image_, style); }
 
     const ImageStyle& style() const { return style_; }
-    const std::shared_ptr<const RenderedImage>& image() const { return image_; }
+    const std::shared_ptr<const Image>& image() const { return image_; }
     const InvalidPixels& invalid() const { return invalid_; }
-    /// Empty before the first conversion is done.
-    const QImage& picture() const { return picture_; }
-    /// At most half as wide and high as `picture`, averaged: for zooms below 1/2. Made when first asked for.
-    const QImage& reduced(int halvings);
+    /// Null before the first conversion is done.
+    const Picture& picture() const { return picture_; }
     /// No conversion is under way.
-    bool isReady() const { return running_ == 0; }
+    bool isReady() const { return running_ == 0 && !later_.isActive() && !bands_.isActive(); }
 
   signals:
     void pictureChanged();
 
   private:
     void refreshNow();
+    void convertBand();
     void convertHere();
     void convertElsewhere();
-    std::shared_ptr<const RenderedImage> image_;
+    std::shared_ptr<const Image> image_;
     ImageStyle style_;
     InvalidPixels invalid_;
-    QImage picture_;
-    std::vector<QImage> reduced_;
-    QTimer later_;
+    Picture picture_;
+    QTimer later_, bands_;
     QElapsedTimer clock_;
     qint64 restUntil_ = 0;         ///< of clock_, in milliseconds
+    qint64 spent_ = 0;             ///< on the bands of a picture, in milliseconds
+    std::uint32_t nextRow_ = 0;    ///< of the bands
     QThreadPool pool_;
     std::uint64_t generation_ = 0;
     int running_ = 0;

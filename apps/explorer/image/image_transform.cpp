@@ -15,7 +15,8 @@ std::optional<Pixel> ImageTransform::pixelAt(QPointF widget) const {
 void ImageTransform::setImageSize(QSizeF size) {
     if (size == image_) return;
     image_ = size;
-    fit();
+    const QPointF middle = toImage(QPointF(widget_.width() / 2, widget_.height() / 2));
+    if (fitted_ || !QRectF(QPointF(0, 0), size).contains(middle)) fit();
 }
 
 void ImageTransform::setWidgetSize(QSizeF size) {

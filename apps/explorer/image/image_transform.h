@@ -23,6 +23,8 @@ class ImageTransform {
     std::optional<Pixel> pixelAt(QPointF widget) const;
     QRectF rectOf(Pixel pixel) const { return toWidget(QRectF(pixel.x, pixel.y, 1, 1)); }
 
+    /// An image of another size keeps zoom and place, pixel on pixel, if it was zoomed and the middle of the widget lies in
+    /// it; else all of it is shown.
     void setImageSize(QSizeF size);
     void setWidgetSize(QSizeF size);
     /// The whole image, as large as the widget allows, centred; at whole multiples where it is magnified.

@@ -2,14 +2,12 @@
 
 #include <QApplication>
 #include <QClipboard>
-#include <QComboBox>
+#include <QDragEnterEvent>
+#include <QFileInfo>
 #include <QHBoxLayout>
-#include <QKeyEvent>
-#include <QLabel>
 #include <QMenu>
-#include <QSignalBlocker>
-#include <QToolButton>
-#include <QVariant>
+#include <QMimeData>
+#include <QPainter>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -20,46 +18,46 @@
 #include "base/state_overlay.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
-#include "emca/analysis/statistics.h"
+#include "image/compare_bar.h"
+#include "image/image_actions.h"
 #include "image/image_canvas.h"
 #include "image/image_controls.h"
+#include "image/image_drop.h"
+#include "image/image_files.h"
+#include "image/image_header.h"
+#include "image/pixel_values.h"
 #include "image/region_tool.h"
+#include "image/value_line.h"
 
 namespace emca::explorer {
 namespace {
 
-QToolButton* button(const QString& text, const QString& tip) {
-    auto* made = new QToolButton;
-    made->setText(text);
-    made->setToolTip(tip);
-    return made;
-}
-
-/// A value of a channel that only renders and files of ours have.
-std::optional<float> channelValue(const Image& image, std::string_view channel, Pixel pixel) {
-    const int index = image.channelIndex(channel);
-    if (index < 0 || !image.contains(pixel)) return std::nullopt;
-    return image.at(pixel)[index];
-}
-
-QString number(float value) { return toQString(analysis::formatNumber(double(value))); }
-
-QString zoomText(double zoom) {
-    const double percent = zoom * 100;
-    return QStringLiteral("%1 %").arg(percent >= 10 ? QString::number(std::lround(percent)) : QString::number(percent, 'f', 1));
-}
+constexpr int kPatienceMilliseconds = 300;
 
 }  // namespace
 
 ImageView::ImageView(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
-    : QWidget(parent), dataset_(dataset), selection_(selection), theme_(theme),
-      canvas_(new ImageCanvas(pixels_, theme)), region_(new RegionTool(dataset, *canvas_, selection, theme)), bar_(new ColorBar(theme)), controls_(new ImageControls(theme)),
-      overlay_(nullptr),
-      datasetListening_(dataset, [this](std::uint32_t parts) { datasetChanged(parts); }),
+    : QWidget(parent), dataset_(dataset), selection_(selection), theme_(theme), model_(new ImageModel(dataset, theme, this)),
+      actions_(new ImageActions(*model_, *this)), files_(new ImageFiles(this)), canvas_(new ImageCanvas(*model_, theme)),
+      region_(new RegionTool(dataset, *canvas_, selection, theme)), bar_(new ColorBar(theme)), header_(new ImageHeader(dataset, *model_, theme)), compare_(new CompareBar(*model_, theme)),
+      values_(new ValueLine(theme)), controls_(new ImageControls(*model_, *actions_, theme)), overlay_(nullptr), computing_(nullptr),
+      drop_(nullptr), datasetListening_(dataset, [this](std::uint32_t parts) { model_->datasetChanged(parts); }),
       selectionListening_(selection, [this](std::uint32_t parts) {
-          if (parts & client::SelectionPart::pixel) canvas_->setMarked(selection_.state().pixel);
-          if (parts & client::SelectionPart::pixel) showValues();
+          if (!(parts & client::SelectionPart::pixel)) return;
+          canvas_->setMarked(selection_.state().pixel);
+          showValues();
       }) {
+    setAcceptDrops(true);
+    build();
+    connectParts();
+    setFocusProxy(canvas_);
+    canvas_->setMarked(selection_.state().pixel);
+    showDisplay();
+}
+
+ImageView::~ImageView() = default;
+
+void ImageView::build() {
     auto* middle = new QWidget;
     auto* row = new QHBoxLayout(middle);
     row->setContentsMargins(0, 0, 0, 0);
@@ -70,200 +68,99 @@ ImageView::ImageView(client::Dataset& dataset, client::Selection& selection, The
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(header());
+    layout->addWidget(header_);
+    layout->addWidget(compare_);
     layout->addWidget(middle, 1);
-    layout->addWidget(infoLine());
+    layout->addWidget(values_);
     layout->addWidget(controls_);
-    overlay_ = new StateOverlay(theme, middle);
+    computing_ = new StateOverlay(theme_, middle);
+    overlay_ = new StateOverlay(theme_, middle);
+    drop_ = new ImageDrop(theme_, middle);
+    patience_.setSingleShot(true);
+    patience_.setInterval(kPatienceMilliseconds);
+}
 
-    ImageStyle style;
-    style.toneMap = theme.toneMap();
-    controls_->setStyle(style);
-    connect(controls_, &ImageControls::styleChanged, this, &ImageView::applyStyle);
-    connect(controls_, &ImageControls::automaticRangeWanted, this, &ImageView::automaticRange);
+void ImageView::connectParts() {
+    connect(model_, &ImageModel::displayChanged, this, &ImageView::showDisplay);
+    connect(model_, &ImageModel::computingChanged, this, &ImageView::showComputing);
+    connect(model_, &ImageModel::pictureChanged, this, &ImageView::showValues);
+    connect(&patience_, &QTimer::timeout, this, &ImageView::showComputing);
     connect(bar_, &ColorBar::rangeEdited, this, [this](const analysis::ValueRange& range) {
-        ImageStyle edited = controls_->style();
-        edited.range = range;
-        controls_->setStyle(edited);
-        applyStyle();
+        ImageDisplay display = model_->display();
+        display.scale().range = range;
+        display.scale().automatic = false;
+        model_->setDisplay(display);
     });
     connect(canvas_, &ImageCanvas::clicked, this, [this](Pixel pixel) { selection_.setPixel(pixel); });
     connect(canvas_, &ImageCanvas::hoverChanged, this, &ImageView::showValues);
-    connect(canvas_, &ImageCanvas::zoomChanged, this, [this] { zoom_->setText(zoomText(canvas_->transform().zoom())); });
+    connect(canvas_, &ImageCanvas::zoomChanged, this, [this] { header_->setZoom(canvas_->transform().zoom()); });
     connect(canvas_, &ImageCanvas::contextMenuWanted, this, &ImageView::pixelMenu);
-    connect(&pixels_, &ImagePixels::pictureChanged, this, [this] {
-        showInvalid();
-        showValues();
-    });
-    setFocusProxy(canvas_);
-    datasetChanged(client::DatasetPart::images | client::DatasetPart::currentImage);
-    canvas_->setMarked(selection_.state().pixel);
+    connect(header_, &ImageHeader::fitWanted, canvas_, &ImageCanvas::fit);
+    connect(header_, &ImageHeader::zoomWanted, canvas_, &ImageCanvas::zoomTo);
+    connect(header_, &ImageHeader::nextInvalidWanted, this, &ImageView::goToNextInvalid);
+    connect(header_, &ImageHeader::openReferenceWanted, files_, &ImageFiles::askForReference);
+    connect(actions_, &ImageActions::openReferenceWanted, files_, &ImageFiles::askForReference);
+    connect(actions_, &ImageActions::nextInvalidWanted, this, &ImageView::goToNextInvalid);
+    connect(actions_, &ImageActions::saveShownWanted, this, &ImageView::saveShown);
+    connect(actions_, &ImageActions::stepImageWanted, this, &ImageView::stepImage);
+    connect(files_, &ImageFiles::referenceChosen, this, &ImageView::openReferenceWanted);
 }
 
-ImageView::~ImageView() = default;
+bool ImageView::isSettled() const { return model_->isSettled() && !files_->isSaving(); }
 
-QWidget* ImageView::header() {
-    auto* bar = new QWidget;
-    auto* layout = new QHBoxLayout(bar);
-    layout->setContentsMargins(Spacing::small, Spacing::tiny, Spacing::small, Spacing::tiny);
-    layout->setSpacing(Spacing::tiny);
-    images_ = new QComboBox;
-    images_->setObjectName("images");
-    images_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    images_->setMinimumContentsLength(12);
-    images_->setToolTip(tr("Renders and opened files"));
-    invalid_ = button({}, tr("Go to the next of them (N)"));
-    invalid_->setObjectName("invalid");
-    zoom_ = button(QStringLiteral("100 %"), tr("Zoom: wheel at the cursor, + and −. Click: fit (0)"));
-    zoom_->setFont(theme_.numberFont());
-    zoom_->setMinimumWidth(72);
-    auto* fit = button(tr("Fit"), tr("Whole image (0)"));
-    auto* one = button(QStringLiteral("1:1"), tr("One screen pixel per image pixel (1)"));
-    layout->addWidget(images_, 1);
-    layout->addWidget(invalid_);
-    layout->addWidget(zoom_);
-    layout->addWidget(fit);
-    layout->addWidget(one);
-    connect(images_, qOverload<int>(&QComboBox::activated), this, [this](int index) {
-        dataset_.setCurrentImage(static_cast<std::size_t>(index));
-    });
-    connect(invalid_, &QToolButton::clicked, this, &ImageView::goToNextInvalid);
-    connect(zoom_, &QToolButton::clicked, canvas_, &ImageCanvas::fit);
-    connect(fit, &QToolButton::clicked, canvas_, &ImageCanvas::fit);
-    connect(one, &QToolButton::clicked, this, [this] { canvas_->zoomTo(1); });
-    return bar;
-}
-
-QWidget* ImageView::infoLine() {
-    auto* line = new QWidget;
-    auto* layout = new QHBoxLayout(line);
-    layout->setContentsMargins(Spacing::medium, 2, Spacing::medium, 0);
-    layout->setSpacing(Spacing::large);
-    position_ = new QLabel;
-    values_ = new QLabel;
-    statistics_ = new QLabel;
-    values_->setTextFormat(Qt::RichText);
-    statistics_->setTextFormat(Qt::RichText);
-    for (QLabel* label : {position_, values_, statistics_}) label->setFont(theme_.numberFont());
-    position_->setMinimumWidth(84);
-    // The line must never make the view wider than its place.
-    values_->setMinimumWidth(1);
-    statistics_->setMinimumWidth(1);
-    layout->addWidget(position_);
-    layout->addWidget(values_, 1);
-    layout->addWidget(statistics_);
-    line->setFixedHeight(22);
-    return line;
-}
-
-void ImageView::datasetChanged(std::uint32_t parts) {
-    using client::DatasetPart;
-    if (parts & (DatasetPart::images | DatasetPart::currentImage)) {
-        listImages();
-        showImage();
+void ImageView::showDisplay() {
+    const ImageDisplay& display = model_->display();
+    const ImageStyle style = display.style();
+    values_->setRowCount(model_->reference() ? 2 : 1);
+    bar_->setVisible(style.falseColor && model_->image() && model_->obstacle().isEmpty());
+    if (style.falseColor && !model_->isComputing()) {
+        ColorBarContent content = bar_->content();
+        content.map = style.colorMap;
+        content.range = style.range;
+        const bool single = style.channel.kind == ChannelSelect::Kind::channel || style.channel.kind == ChannelSelect::Kind::layer;
+        // A channel that is no colour has a unit that only its maker knows.
+        const bool color = !single || style.channel.name.size() == 1;
+        content.title = toQString(color || display.quantity() != "radiance" ? display.quantity() : style.channel.name);
+        if (single && content.title != toQString(style.channel.name)) content.title += QStringLiteral(" ") + toQString(style.channel.name);
+        if (!display.unit().empty() && color) content.title += QStringLiteral(", ") + toQString(display.unit());
+        bar_->show(content);
+        bar_->updateGeometry();
     }
-    if (parts & DatasetPart::pixels) pixels_.refresh();
-}
-
-void ImageView::listImages() {
-    const QSignalBlocker quiet(images_);
-    images_->clear();
-    for (const client::ImageEntry& entry : dataset_.images()) images_->addItem(toQString(entry.title));
-    images_->setCurrentIndex(dataset_.images().empty() ? -1 : static_cast<int>(dataset_.currentImageIndex()));
-    images_->setEnabled(!dataset_.images().empty());
-}
-
-void ImageView::showImage() {
-    const client::ImageEntry* entry = dataset_.currentImage();
-    const bool changed = (entry ? entry->image : nullptr) != pixels_.image();
-    if (entry && entry->image) controls_->setChannels(entry->image->color.channels());
-    pixels_.set(entry ? entry->image : nullptr, controls_->style());
-    if (changed && !rangeChosen_ && controls_->style().falseColor) automaticRange();
-    showInvalid();
+    showComputing();
     showValues();
 }
 
-void ImageView::applyStyle() {
-    const ImageStyle& style = controls_->style();
-    theme_.setToneMap(style.toneMap);
-    if (style.falseColor && !rangeChosen_) {
-        automaticRange();
+void ImageView::showComputing() {
+    const ImageDisplay& display = model_->display();
+    const auto leave = [this] {
+        ImageDisplay back = model_->display();
+        back.mode = ImageMode::image;
+        back.samplingError.reset();
+        model_->setDisplay(back);
+    };
+    if (model_->isComputing()) {
+        if (!waiting_) patience_.start();
+        waiting_ = true;
+        if (patience_.isActive()) return;
+        computing_->showBusy(tr("Computing: %1").arg(toQString(display.quantity())), model_->fraction() > 0 ? model_->fraction() : -1, tr("Cancel"), leave);
         return;
     }
-    bar_->setVisible(style.falseColor);
-    const client::ImageEntry* entry = dataset_.currentImage();
-    const bool channel = style.channel.index >= 0 && entry && entry->image &&
-                         style.channel.index < static_cast<int>(entry->image->color.channelCount());
-    bar_->show(style.colorMap, style.range,
-               channel ? toQString(entry->image->color.channels()[static_cast<std::size_t>(style.channel.index)])
-                       : QStringLiteral("W/(sr m²)"));
-    pixels_.setStyle(style);
-}
-
-void ImageView::automaticRange() {
-    const client::ImageEntry* entry = dataset_.currentImage();
-    if (!entry || !entry->image) return;
-    ImageStyle style = controls_->style();
-    const bool log = style.range.log;
-    style.range = analysis::percentileRange(analysis::scalars(entry->image->color, style.channel), 0.005, 0.995, log);
-    rangeChosen_ = true;
-    controls_->setStyle(style);
-    applyStyle();
-}
-
-QString ImageView::describe(Pixel pixel) const {
-    const auto& rendered = pixels_.image();
-    if (!rendered || !rendered->color.contains(pixel)) return {};
-    const Color color = rendered->color.color(pixel);
-    QString text = QStringLiteral("%1  R %2  G %3  B %4  Y %5")
-                       .arg(toQString(analysis::formatPixel(pixel)), number(color.r), number(color.g), number(color.b),
-                            number(luminance(color)));
-    if (const auto samples = channelValue(rendered->samples, "samples", pixel)) text += tr("  %1 samples").arg(static_cast<int>(*samples));
-    return text;
+    patience_.stop();
+    waiting_ = false;
+    if (model_->image() && !model_->obstacle().isEmpty()) computing_->showError(model_->obstacle(), tr("Show the image"), leave);
+    else if (!computing_->sentence().isEmpty()) computing_->clear();
 }
 
 void ImageView::showValues() {
-    const auto& rendered = pixels_.image();
     const auto pixel = canvas_->hovered() ? canvas_->hovered() : selection_.state().pixel;
-    if (!rendered || !pixel || !rendered->color.contains(*pixel)) {
-        for (QLabel* label : {position_, values_, statistics_}) label->clear();
-        bar_->setPointer(std::numeric_limits<double>::quiet_NaN());
-        return;
-    }
-    const ThemeColors& c = theme_.colors();
-    const auto part = [&](const QString& label, float value, const QColor& tint) {
-        const QString shown = number(value);
-        const QColor ink = analysis::isNonFiniteWord(shown.toStdString()) || value < 0 ? c.warning : c.text;
-        return QStringLiteral("<span style='color:%1'>%2</span>&nbsp;<span style='color:%3'>%4</span>")
-            .arg(tint.name(), label, ink.name(), shown);
-    };
-    const Color color = rendered->color.color(*pixel);
-    position_->setText(toQString(analysis::formatPixel(*pixel)));
-    values_->setText(QStringList{part("R", color.r, c.red), part("G", color.g, c.green), part("B", color.b, c.blue),
-                                 part("Y", luminance(color), c.mutedText)}.join(QStringLiteral("&nbsp;&nbsp; ")));
-    QStringList statistics;
-    auto samples = channelValue(rendered->samples, "samples", *pixel);
-    if (!samples) samples = channelValue(rendered->color, "samples", *pixel);
-    if (samples) statistics += QStringLiteral("%1 <span style='color:%2'>spp</span>").arg(static_cast<int>(*samples)).arg(c.mutedText.name());
-    if (rendered->variance.contains(*pixel))
-        statistics += part(tr("σ²"), luminance(rendered->variance.color(*pixel)), c.mutedText);
-    statistics_->setText(statistics.join(QStringLiteral("&nbsp;&nbsp; ")));
-    bar_->setPointer(double(analysis::scalar(rendered->color, *pixel, controls_->style().channel)));
-}
-
-void ImageView::showInvalid() {
-    const InvalidPixels& found = pixels_.invalid();
-    QStringList words;
-    if (found.nan) words += tr("%1 NaN").arg(found.nan);
-    if (found.infinite) words += tr("%1 infinite").arg(found.infinite);
-    if (found.negative) words += tr("%1 negative").arg(found.negative);
-    invalid_->setVisible(!words.isEmpty());
-    invalid_->setText(words.join(", "));
-    invalid_->setStyleSheet(QStringLiteral("color: %1").arg(theme_.colors().warning.name()));
+    values_->setRows(pixel ? pixelRows(*model_, *pixel) : std::vector<ValueLine::Row>{});
+    const auto& shown = model_->content().values;
+    bar_->setPointer(shown && pixel && shown->contains(*pixel) ? double(shownNumber(*shown, *pixel, model_->display().channel))
+                                                               : std::numeric_limits<double>::quiet_NaN());
 }
 
 void ImageView::goToNextInvalid() {
-    const auto& pixels = pixels_.invalid().pixels;
+    const auto& pixels = model_->front().invalid().pixels;
     if (pixels.empty()) return;
     const auto from = selection_.state().pixel;
     auto next = from ? std::upper_bound(pixels.begin(), pixels.end(), *from) : pixels.begin();
@@ -276,8 +173,34 @@ void ImageView::focusSelection() {
     if (selection_.state().pixel) canvas_->focusOn(*selection_.state().pixel);
 }
 
-void ImageView::toggleLog() {
-    if (controls_->style().falseColor) controls_->toggleLog();
+void ImageView::toggleLog() { actions_->toggleLog(); }
+
+void ImageView::stepImage(int by) {
+    const auto count = static_cast<int>(dataset_.images().size());
+    if (count > 1) dataset_.setCurrentImage(static_cast<std::size_t>((static_cast<int>(dataset_.currentImageIndex()) + by + count) % count));
+}
+
+QImage ImageView::shownPicture() const {
+    if (model_->front().picture().isNull()) return {};
+    QImage picture = model_->front().picture().full().copy();
+    if (model_->display().mode == ImageMode::split && !model_->back().picture().isNull()) {
+        const int from = static_cast<int>(std::lround(canvas_->transform().toImage(QPointF(canvas_->split() * canvas_->width(), 0)).x()));
+        QPainter painter(&picture);
+        painter.setClipRect(QRect(from, 0, std::max(0, picture.width() - from), picture.height()));
+        painter.drawImage(0, 0, model_->back().picture().full());
+    }
+    return picture;
+}
+
+void ImageView::saveShown() {
+    const client::ImageEntry* entry = dataset_.currentImage();
+    const auto& values = model_->content().values;
+    if (!entry || !values || model_->front().picture().isNull()) return;
+    const ImageDisplay& display = model_->display();
+    QString name = QFileInfo(toQString(entry->title)).completeBaseName();
+    if (display.quantity() != "radiance") name += QStringLiteral(", ") + toQString(display.quantity());
+    // A preview is still written to: a copy of it is saved.
+    files_->askWhereToSave(name, shownPicture(), entry->preview ? std::make_shared<const Image>(*values) : values);
 }
 
 void ImageView::pixelMenu(Pixel pixel, QPoint global) {
@@ -298,22 +221,40 @@ void ImageView::pixelMenu(Pixel pixel, QPoint global) {
     }
     menu.addSeparator();
     connect(menu.addAction(tr("Copy values")), &QAction::triggered, this,
-            [this, pixel] { QApplication::clipboard()->setText(describe(pixel)); });
+            [this, pixel] { QApplication::clipboard()->setText(pixelText(*model_, pixel)); });
     connect(menu.addAction(tr("Expose for this pixel")), &QAction::triggered, this, [this, pixel] {
-        const float brightest = maxComponent(pixels_.image()->color.color(pixel));
-        if (!(brightest > 0) || std::isinf(brightest)) return;
-        controls_->changeExposure(-std::log2(double(brightest)) - double(controls_->style().toneMap.exposure));
+        const float brightest = model_->image()->color.contains(pixel) ? maxComponent(model_->image()->color.color(pixel)) : 0;
+        if (brightest > 0 && std::isfinite(brightest)) actions_->setExposure(-std::log2(double(brightest)));
     });
+    menu.addSeparator();
+    for (const char* name : {"flipReference", "splitReference", "difference", "useAsReference", "openReference", "saveShown"})
+        for (QAction* action : actions())
+            if (action->objectName() == name) menu.addAction(action);
     menu.exec(global);
 }
 
-void ImageView::keyPressEvent(QKeyEvent* event) {
-    switch (event->key()) {
-        case Qt::Key_E: controls_->changeExposure(event->modifiers() & Qt::ShiftModifier ? -0.5 : 0.5); break;
-        case Qt::Key_C: controls_->toggleFalseColor(); break;
-        case Qt::Key_N: goToNextInvalid(); break;
-        default: QWidget::keyPressEvent(event);
-    }
+void ImageView::dragEnterEvent(QDragEnterEvent* event) {
+    // Without an image there is nothing to compare with: the window opens what is dropped.
+    if (!model_->image() || ImageDrop::imagesIn(*event->mimeData()).isEmpty()) return event->ignore();
+    drop_->present(drop_->parentWidget()->mapFrom(this, positionOf(*event).toPoint()));
+    event->acceptProposedAction();
+}
+
+void ImageView::dragMoveEvent(QDragMoveEvent* event) {
+    drop_->present(drop_->parentWidget()->mapFrom(this, positionOf(*event).toPoint()));
+    event->acceptProposedAction();
+}
+
+void ImageView::dragLeaveEvent(QDragLeaveEvent*) { drop_->hide(); }
+
+void ImageView::dropEvent(QDropEvent* event) {
+    drop_->hide();
+    QStringList files = ImageDrop::imagesIn(*event->mimeData());
+    if (files.isEmpty()) return event->ignore();
+    const bool reference = drop_->isOnReference(drop_->parentWidget()->mapFrom(this, positionOf(*event).toPoint()));
+    event->acceptProposedAction();
+    if (reference) emit openReferenceWanted(files.takeFirst());
+    if (!files.isEmpty()) emit openWanted(files);
 }
 
 }  // namespace emca::explorer

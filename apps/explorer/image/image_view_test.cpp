@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QComboBox>
 #include <QToolButton>
 #include <QWheelEvent>
@@ -9,8 +10,8 @@
 #include <limits>
 
 #include "base/theme.h"
+#include "image/image_actions.h"
 #include "image/image_canvas.h"
-#include "image/image_controls.h"
 #include "testing/wait.h"
 
 namespace emca::explorer {
@@ -32,8 +33,11 @@ class ImageViewTest : public testing::Test {
     ImageViewTest() {
         view.resize(640, 520);
         view.show();
+        QApplication::setActiveWindow(&view);
+        canvas().setFocus();
         QTest::qWait(1);
     }
+    const ImageDisplay& display() { return view.model().display(); }
     ImageCanvas& canvas() { return view.canvas(); }
     /// Rounded down: at zoom 1 the centre of a pixel lies between two positions of the mouse.
     QPoint screen(Pixel pixel) {
@@ -119,7 +123,7 @@ TEST_F(ImageViewTest, ExposureBrightensWhatIsPainted) {
     dataset.addImage(entryOf(20, 20, 0.1f));
     const QPoint at = screen({10, 10});
     const int before = shownAt(at).red();
-    view.controls().changeExposure(2);
+    view.imageActions().changeExposure(2);
     // 0.1 * 2^2 = 0.4, sRGB: 1.055 * 0.4^(1/2.4) - 0.055 = 0.6652
     EXPECT_EQ(shownAt(at).red(), 170);
     EXPECT_LT(before, 100);
@@ -167,15 +171,15 @@ TEST_F(ImageViewTest, FalseColourFindsItsRangeAndPaintsTheMap) {
     entry.image = image;
     dataset.addImage(entry);
     QTest::keyClick(&canvas(), Qt::Key_C);
-    const ImageStyle style = view.controls().style();
+    const ImageStyle style = display().style();
     EXPECT_TRUE(style.falseColor);
     EXPECT_NEAR(style.range.min, 0.5, 0.6);
     EXPECT_NEAR(style.range.max, 98.5, 0.6);
     const auto expected = analysis::ColorMap::get(style.colorMap).map(50.0, style.range);
     EXPECT_EQ(shownAt(screen({50, 5})), QColor(expected.r, expected.g, expected.b));
     view.toggleLog();
-    EXPECT_TRUE(view.controls().style().range.log);
-    EXPECT_TRUE(view.controls().style().range.isValid());
+    EXPECT_TRUE(display().style().range.log);
+    EXPECT_TRUE(display().style().range.isValid());
 }
 
 TEST_F(ImageViewTest, AnotherImageOfTheSameSizeKeepsZoomAndPlace) {
@@ -206,8 +210,8 @@ TEST_F(ImageViewTest, PreviewPixelsAppearAsTheyArrive) {
 
 TEST_F(ImageViewTest, LargeImagesAreConvertedWhileTheWindowLives) {
     dataset.addImage(entryOf(2000, 1500, 0.5f));
-    EXPECT_TRUE(waitFor([&] { return view.pixels().isReady() && !view.pixels().picture().isNull(); }));
-    EXPECT_EQ(view.pixels().picture().width(), 2000);
+    EXPECT_TRUE(waitFor([&] { return view.isSettled() && !view.pixels().picture().isNull(); }));
+    EXPECT_EQ(view.pixels().picture().full().width(), 2000);
     EXPECT_EQ(shownAt(screen({1000, 700})).red(), 188);  // sRGB of 0.5
 }
 

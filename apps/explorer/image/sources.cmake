@@ -1,14 +1,33 @@
 set(EMCA_IMAGE_SOURCES
+  image/compare_bar.cpp
+  image/compare_bar.h
+  image/image_actions.cpp
+  image/image_actions.h
   image/image_canvas.cpp
   image/image_canvas.h
+  image/image_canvas_paint.cpp
+  image/image_content.cpp
+  image/image_content.h
   image/image_controls.cpp
   image/image_controls.h
+  image/image_display.cpp
+  image/image_display.h
+  image/image_drop.cpp
+  image/image_drop.h
+  image/image_files.cpp
+  image/image_files.h
+  image/image_header.cpp
+  image/image_header.h
+  image/image_model.cpp
+  image/image_model.h
   image/image_pixels.cpp
   image/image_pixels.h
   image/image_transform.cpp
   image/image_transform.h
   image/image_view.cpp
   image/image_view.h
+  image/pixel_values.cpp
+  image/pixel_values.h
   image/region_histogram.cpp
   image/region_histogram.h
   image/region_numbers.cpp
@@ -19,8 +38,12 @@ set(EMCA_IMAGE_SOURCES
   image/region_panel.h
   image/region_tool.cpp
   image/region_tool.h
+  image/value_line.cpp
+  image/value_line.h
 )
 set(EMCA_IMAGE_TESTS
+  image/image_compare_test.cpp
+  image/image_display_test.cpp
   image/image_transform_test.cpp
   image/image_view_test.cpp
   image/region_outline_test.cpp

@@ -99,6 +99,8 @@ class SessionController : public QObject {
     void cancelTrace();
     void reloadScene();
     void openImage(const QString& file);
+    /// Reads a file that the current image shall be compared with: it becomes one of the images, but not the current one.
+    void openReference(const QString& file);
     void saveImage(const QString& file);
     /// Puts a session in the place of everything that is here. The connection stays if its renderer shows the same
     /// scene. Until the file is read nothing changes, nor if it cannot be read; a later call replaces an earlier one.
@@ -117,6 +119,7 @@ class SessionController : public QObject {
     void traceFinished();
     void notesChanged();
     void imageOpened(const QString& file);
+    void referenceOpened(const std::shared_ptr<const emca::RenderedImage>& reference);
     void imageSaved(const QString& file);
     /// \param complete  every part of the file was read
     void sessionOpened(const QString& file, bool complete, const QStringList& notices);
@@ -159,6 +162,7 @@ class SessionController : public QObject {
     void loadScene();
     void forgetRenderIds();
     void begin();
+    void readImage(const QString& file, bool asReference);
     std::optional<std::size_t> indexOf(const std::shared_ptr<const RenderedImage>& image) const;
 
     client::Dataset& dataset_;

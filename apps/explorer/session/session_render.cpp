@@ -174,11 +174,15 @@ void SessionController::abandonRender(const Error& error) {
     emit activityChanged();
 }
 
-void SessionController::openImage(const QString& file) {
+void SessionController::openImage(const QString& file) { readImage(file, false); }
+
+void SessionController::openReference(const QString& file) { readImage(file, true); }
+
+void SessionController::readImage(const QString& file, bool asReference) {
     ++filesBeingRead_;
     emit activityChanged();
     workers_.run([path = std::filesystem::path(file.toStdString())] { return imageio::read(path); },
-                 [this, file](Result<Image> result) {
+                 [this, file, asReference](Result<Image> result) {
                      --filesBeingRead_;
                      if (!result) {
                          fail(FailedTask::openImage, result.error());
@@ -187,9 +191,16 @@ void SessionController::openImage(const QString& file) {
                          entry.title = QFileInfo(file).fileName().toStdString();
                          auto image = std::make_shared<RenderedImage>();
                          image->color = std::move(*result);
-                         entry.image = std::move(image);
-                         dataset_.addImage(std::move(entry));
+                         entry.image = image;
+                         {
+                             const client::Dataset::Transaction once(dataset_);
+                             const bool stays = asReference && dataset_.currentImage();
+                             const std::size_t current = dataset_.currentImageIndex();
+                             dataset_.addImage(std::move(entry));
+                             if (stays) dataset_.setCurrentImage(current);
+                         }
                          emit imageOpened(file);
+                         if (asReference) emit referenceOpened(image);
                      }
                      emit activityChanged();
                  });

@@ -197,7 +197,7 @@ void MainWindow::render() {
 }
 
 bool MainWindow::isSettled() const {
-    return session_.isIdle() && views_.image->pixels().isReady() && !views_.scene->isLoading() && !views_.scene->isMoving() &&
+    return session_.isIdle() && views_.image->isSettled() && !views_.scene->isLoading() && !views_.scene->isMoving() &&
            views_.filter->isSettled() && views_.region->isSettled();
 }
 

@@ -8,7 +8,6 @@
 #include <QToolButton>
 
 #include "base/theme.h"
-#include "image/image_controls.h"
 #include "image/region_panel.h"
 #include "image/region_tool.h"
 #include "image/image_view.h"
@@ -93,8 +92,11 @@ void MainWindow::addMenus() {
 
     QMenu* view = menuBar()->addMenu(tr("&View"));
     addAction(view, "log", tr("Logarithmic scale"), QKeySequence("L"), [this] { toggleLog(); });
-    addAction(view, "falseColor", tr("False colour"), QKeySequence("C"), [this] { views_.image->controls().toggleFalseColor(); });
-    addAction(view, "nextInvalid", tr("Next NaN, infinite or negative pixel"), QKeySequence("N"), [this] { views_.image->goToNextInvalid(); });
+    QMenu* image = view->addMenu(tr("Image"));
+    for (QAction* made : views_.image->actions()) {
+        image->addAction(made);
+        actions_[made->objectName()] = made;
+    }
     view->addSeparator();
     for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());

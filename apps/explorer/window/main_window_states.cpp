@@ -2,6 +2,7 @@
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "emca/analysis/format.h"
+#include "image/image_files.h"
 #include "image/image_view.h"
 #include "paths/filter_panel.h"
 #include "image/region_panel.h"
@@ -49,6 +50,15 @@ void MainWindow::connectSession() {
     connect(views_.history, &HistoryView::traceChosen, &session_, &SessionController::showTrace);
     connect(views_.history, &HistoryView::traceAgainWanted, &session_, &SessionController::traceAgain);
     connect(views_.image, &ImageView::traceAgainWanted, &session_, &SessionController::traceAgain);
+    connect(views_.image, &ImageView::openWanted, this, [this](const QStringList& files) { files_->open(files); });
+    connect(views_.image, &ImageView::openReferenceWanted, &session_, &SessionController::openReference);
+    connect(&session_, &SessionController::referenceOpened, views_.image, [this](const std::shared_ptr<const RenderedImage>& reference) {
+        views_.image->model().setReference(reference);
+    });
+    connect(&views_.image->files(), &ImageFiles::saved, this, [this](const QString& file) { toast_->showRemark(tr("Saved %1").arg(file)); });
+    connect(&views_.image->files(), &ImageFiles::failed, this, [this](const QString& sentence) {
+        toast_->showError(sentence, tr("Save elsewhere…"), [this] { views_.image->saveShown(); });
+    });
     connect(views_.scene, &SceneView::reloadRequested, &session_, &SessionController::reloadScene);
     connect(views_.scene, &SceneView::connectRequested, this, [this] { connectPanel_->openBelow(connectButton_); });
     connect(views_.surfaces, &SurfacePanel::renderWanted, this, &MainWindow::render);
