@@ -69,7 +69,10 @@ RequestControls::RequestControls(explorer::PluginContext& context, QWidget* pare
     depth_->setPrefix(tr("depth "));
     depth_->setSpecialValueText(tr("scene's depth"));
     depth_->setToolTip(tr("Longest path in segments, from the vertex on: 1 shows emitters, 2 adds direct light; 0: as the scene says"));
-    for (QSpinBox* box : {samples_, depth_}) box->setKeyboardTracking(false);
+    for (QSpinBox* box : {samples_, depth_}) {
+        box->setKeyboardTracking(false);
+        box->setMinimumWidth(64);
+    }
     progress_ = new QProgressBar;
     progress_->setTextVisible(false);
     progress_->setFixedHeight(3);
@@ -158,6 +161,10 @@ LookControls::LookControls(explorer::PluginContext& context, QWidget* parent) : 
     pages_->addWidget(falseColorPage());
     pages_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 
+    for (QComboBox* box : {projection_, orientation_}) {
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(6);
+    }
     auto* above = row();
     above->addWidget(projection_, 3);
     above->addWidget(orientation_, 2);
@@ -228,11 +235,13 @@ QWidget* LookControls::falseColorPage() {
         const auto& map = analysis::ColorMap::get(static_cast<analysis::ColorMapId>(i));
         if (!map.isDiverging()) map_->addItem(QString::fromUtf8(map.name().data(), static_cast<int>(map.name().size())), static_cast<int>(i));
     }
+    map_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    map_->setMinimumContentsLength(5);
     minimum_ = new QLineEdit;
     maximum_ = new QLineEdit;
     minimum_->setToolTip(tr("Luminance of the first colour, W/(sr m²)"));
     maximum_->setToolTip(tr("Luminance of the last colour, W/(sr m²)"));
-    for (QLineEdit* edit : {minimum_, maximum_}) edit->setFixedWidth(72);
+    for (QLineEdit* edit : {minimum_, maximum_}) edit->setFixedWidth(76);
     minimum_->setAlignment(Qt::AlignRight);
     log_ = toggle(tr("Log"), "probeLog", tr("Logarithmic range"));
     automatic_ = new QToolButton;
@@ -338,12 +347,21 @@ void DirectionLegend::restyle() {
         const auto kind = static_cast<DirectionKind>(i);
         paintDirection(painter, QPointF(8, 8), kind, kind == DirectionKind::other ? 7 : 12, context_.colors());
         painter.end();
-        buttons_[static_cast<std::size_t>(i)]->setIcon(QIcon(picture));
+        QPixmap dim(picture.size());
+        dim.setDevicePixelRatio(ratio);
+        dim.fill(Qt::transparent);
+        painter.begin(&dim);
+        painter.setOpacity(0.3);
+        painter.drawPixmap(0, 0, picture);
+        painter.end();
+        QIcon icon;
+        icon.addPixmap(picture, QIcon::Normal, QIcon::On);
+        icon.addPixmap(dim, QIcon::Normal, QIcon::Off);
+        buttons_[static_cast<std::size_t>(i)]->setIcon(icon);
         buttons_[static_cast<std::size_t>(i)]->setFont(context_.smallFont());
         // Switched on is the rule, so that shows nothing; what is off is dimmed.
         buttons_[static_cast<std::size_t>(i)]->setStyleSheet(
-            QStringLiteral("QToolButton { padding: 2px 3px; color: %1; } QToolButton:checked { background: transparent; border-color: transparent; color: %2; }"
-                           "QToolButton:!checked { text-decoration: line-through; }")
+            QStringLiteral("QToolButton { padding: 2px 3px; color: %1; } QToolButton:checked { background: transparent; border-color: transparent; color: %2; }")
                 .arg(context_.colors().mutedText.name(), context_.colors().text.name()));
     }
 }

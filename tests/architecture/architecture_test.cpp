@@ -35,7 +35,7 @@ const std::map<std::string, Rule>& rules() {
         {"apps/explorer", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h", "fcntl.h", "signal.h"}}},
         {"plugins", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q"}}},
         {"python", {{"core", "recorder", "query", "server", "client", "analysis"}, {"pybind11/"}}},
-        {"examples", {{"core", "recorder", "server", "client"}, {}}},
+        {"examples", {{"core", "recorder", "server", "client", "probe", "analysis", "explorer"}, {"Q"}}},
     };
     return table;
 }
