@@ -1,11 +1,14 @@
 #include <QApplication>
 #include <QTemporaryDir>
 #include <cstdio>
+#include <cstdlib>
 
 #include "program/options.h"
 #include "program/unattended.h"
 #include "scene/scene_view.h"
+#include "plugin/plugin_guard.h"
 #include "window/main_window.h"
+#include "window/window_plugins.h"
 
 using namespace emca;
 using namespace emca::explorer;
@@ -25,6 +28,12 @@ int run(QApplication& application, const Options& options) {
     if (options.theme) settings->setValue("theme", *options.theme == ThemeKind::light ? "light" : "dark");
     theme.applyTo(application);
     MainWindow window(dataset, selection, session, theme, *settings);
+    PluginManager::Options pluginOptions = PluginManager::Options::standard();
+    pluginOptions.files = options.plugins;
+    if (options.withoutPlugins) pluginOptions.folders.clear();
+    WindowPlugins plugins(window, dataset, selection, session, theme, *settings, std::move(pluginOptions));
+    PluginWatch::markCrashes(PluginManager::markPrefix(*settings));
+    plugins.start();
     if (options.size.isValid()) window.resize(options.size);
     window.show();
 
@@ -34,7 +43,14 @@ int run(QApplication& application, const Options& options) {
         QCoreApplication::exit(code);
     }, Qt::QueuedConnection);
     steps.start();
-    return QApplication::exec();
+    const int code = QApplication::exec();
+    if (!plugins.manager().end()) {
+        // Work of a plugin that does not end, however often it was told to, must not keep the process.
+        settings->sync();
+        std::fflush(nullptr);
+        std::_Exit(code);
+    }
+    return code;
 }
 
 }  // namespace
@@ -58,6 +74,6 @@ int main(int argc, char** argv) {
     QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
     QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
 #endif
-    QApplication application(argc, argv);
+    GuardedApplication application(argc, argv);
     return run(application, *options);
 }

@@ -152,6 +152,8 @@ Result<void> setValue(Options& options, const QString& name, const QString& valu
         options.screenshot = value;
     } else if (name == "--tour") {
         options.tour = value;
+    } else if (name == "--plugin") {
+        options.plugins << value;
     } else if (name == "--settings") {
         options.settings = value;
     } else {
@@ -171,6 +173,8 @@ Result<Options> parseOptions(const QStringList& arguments) {
         Result<void> done;
         if (argument == "--help" || argument == "-h") {
             options.help = true;
+        } else if (argument == "--no-plugins") {
+            options.withoutPlugins = true;
         } else if (argument == "--layer-log") {
             options.scene.log = true;
         } else if (argument.startsWith("--") && argument.contains('=')) {
@@ -207,6 +211,8 @@ QString usage() {
         "  --size WxH           size of the window\n"
         "  --region X0,Y0,X1,Y1 select pixels together: columns from X0 to before X1, rows from Y0 to before Y1\n"
         "  --theme dark|light\n"
+        "  --plugin FILE        load this plugin besides those of the folders; may be given several times\n"
+        "  --no-plugins         load none, except those given by --plugin\n"
         "  --settings FILE      layout, theme and addresses from this file\n\n"
         "Data on surfaces and the 3D view:\n"
         "  --layers NAME,NAME   collect these layers in the first render; \"all\": every one that the renderer offers\n"

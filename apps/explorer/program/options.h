@@ -43,6 +43,8 @@ struct Options {
     std::uint32_t samplesPerPixel = 0;   ///< 0: the scene's
     QString settings;                    ///< file in place of the person's settings
     SceneWishes scene;
+    QStringList plugins;                 ///< files, besides those of the folders
+    bool withoutPlugins = false;         ///< not even those of the folders
     bool onlyScene = false;              ///< the screenshot is one of the 3D view alone
     bool help = false;
     bool unattended() const { return !screenshot.isEmpty() || !tour.isEmpty(); }

@@ -38,6 +38,8 @@ class SessionController : public QObject {
 
     LinkState link() const { return link_; }
     const client::Address& address() const { return address_; }
+    /// Null while none is open. Requests on it block: from other threads only.
+    std::shared_ptr<client::Connection> connection() const { return connection_; }
     /// Render as soon as a renderer is connected and no image of its size is there.
     void setRenderOnConnect(bool render) { renderOnConnect_ = render; }
     /// What that render is made with.

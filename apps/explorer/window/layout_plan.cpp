@@ -26,7 +26,7 @@ Cell withRest(QStringList docks, double width = 1) { return {std::move(docks), w
 LayoutPlan standard() {
     LayoutPlan plan{"default", tr("Default"), tr("Image and plots at the left, scene and values at the right, tools at the edge"), {}, true};
     plan.columns = {column(0.4, {row(0.56, {cell({"image"})}), row(0.44, {cell(kPlots)})}),
-                    column(0.6, {row(0.58, {cell({"scene"}, 0.68), withRest(kTools, 0.32)}), row(0.42, {cell({"paths"}, 0.54), cell({"vertex"}, 0.46)})})};
+                    column(0.6, {row(0.58, {cell({"scene"}, 0.68), withRest(kTools, 0.32)}), row(0.42, {cell({"paths"}, 0.54), cell({"vertex", "plugin-intersection-data"}, 0.46)})})};
     return plan;
 }
 
@@ -35,7 +35,7 @@ LayoutPlan fireflyHunt() {
     LayoutPlan plan{"firefly", tr("Firefly hunt"), tr("Outliers and luminance beside the image; the path, its vertices and values large"), {}, false};
     plan.columns = {column(0.3, {row(0.5, {cell({"image"})}), row(0.5, {cell({"plots-luminance", "plots-rgb", "plots-depth"})})}),
                     column(0.42, {row(0.5, {cell({"scene"})}), row(0.5, {cell({"paths"})})}),
-                    column(0.28, {row(0.5, {withRest({"outliers", "filter", "history", "notes"})}), row(0.5, {cell({"vertex"})})})};
+                    column(0.28, {row(0.5, {withRest({"outliers", "filter", "history", "notes"})}), row(0.5, {cell({"vertex", "plugin-intersection-data"})})})};
     return plan;
 }
 
@@ -51,7 +51,7 @@ LayoutPlan compare() {
 /// For a projector: few things, large, and the words that belong to them.
 LayoutPlan teaching() {
     LayoutPlan plan{"teaching", tr("Teaching"), tr("A large scene, the image, the values of a vertex, and notes"), {}, false};
-    plan.columns = {column(0.32, {row(0.42, {cell({"image"})}), row(0.36, {cell({"vertex", "paths"})}), row(0.22, {withRest({"notes", "history"})})}),
+    plan.columns = {column(0.32, {row(0.42, {cell({"image"})}), row(0.36, {cell({"vertex", "plugin-intersection-data", "paths"})}), row(0.22, {withRest({"notes", "history"})})}),
                     column(0.68, {row(1, {cell({"scene"})})})};
     return plan;
 }
@@ -173,6 +173,8 @@ void arrange(QMainWindow& window, const Group& docks, const LayoutPlan& plan) {
     }
     split(window, columns);
     for (PanelDock* dock : docks) dock->setVisible(plan.showsRest || std::ranges::find(unnamed, dock) == unnamed.end());
+    for (PanelDock* dock : docks)
+        if (dock->property("hiddenAtFirst").toBool()) dock->hide();
     resize(window, columns);
     for (const PlacedColumn& column : columns)
         for (const Placed& row : column.rows)

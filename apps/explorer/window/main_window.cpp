@@ -3,11 +3,14 @@
 #include <QAction>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QScrollArea>
 #include <QStatusBar>
 #include <QTimer>
 #include <QUrl>
+#include <algorithm>
 
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
@@ -25,6 +28,7 @@
 #include "window/file_menu.h"
 #include "window/filter_settings.h"
 #include "window/history_view.h"
+#include "window/layout_plan.h"
 #include "window/layouts.h"
 #include "window/notes_panel.h"
 #include "window/panel_dock.h"
@@ -69,7 +73,14 @@ MainWindow::MainWindow(client::Dataset& dataset, client::Selection& selection, S
         std::vector<PanelDock*> docks;
         for (const auto& [name, made] : docks_) docks.push_back(made);
         return docks;
-    }, {[this] { return viewOptions(views_); }, [this](const QVariantMap& options) { setViewOptions(views_, options); }}, this);
+    }, {[this] {
+        QVariantMap options = viewOptions(views_);
+        if (pluginHooks_.read) options["plugins"] = pluginHooks_.read();
+        return options;
+    }, [this](const QVariantMap& options) {
+        setViewOptions(views_, options);
+        if (pluginHooks_.write && options.contains("plugins")) pluginHooks_.write(options["plugins"].toMap());
+    }}, this);
     connect(layouts_, &Layouts::arranged, this, &MainWindow::updateDockTitles);
     layouts_->apply("default");
     shortcuts_ = new ShortcutPanel(theme, this);
@@ -99,6 +110,32 @@ PanelDock* MainWindow::addDock(const QString& title, const QString& name, QWidge
     connect(made, &QDockWidget::dockLocationChanged, this, &MainWindow::updateDockTitles);
     connect(made, &QDockWidget::topLevelChanged, this, &MainWindow::updateDockTitles);
     connect(made, &QDockWidget::visibilityChanged, this, &MainWindow::updateDockTitles);
+    return made;
+}
+
+PanelDock* MainWindow::addPanel(const QString& title, const QString& name, QWidget* widget, const QStringList& beside, bool shown) {
+    PanelDock* made = addDock(title, name, widget);
+    made->setProperty("hiddenAtFirst", !shown);
+    const auto menus = menuBar()->findChildren<QMenu*>(QString(), Qt::FindDirectChildrenOnly);
+    for (QMenu* menu : menus)
+        if (menu->actions().contains(panelsEnd_)) menu->insertAction(panelsEnd_, made->toggleViewAction());
+    // Before the window is shown, its layout waits, and this dock with it.
+    if (!arranged_ || restoreDockWidget(made)) return made;
+    std::vector<PanelDock*> docks;
+    for (const auto& [of, other] : docks_) docks.push_back(other);
+    const auto there = std::find_if(beside.begin(), beside.end(), [this](const QString& other) { return dock(other) && dock(other)->isVisibleTo(this) && !dock(other)->isFloating(); });
+    if (there != beside.end()) {
+        tabifyDockWidget(dock(*there), made);
+        dock(*there)->raise();
+    } else {
+        QWidget* front = nullptr;
+        for (PanelDock* other : docks)
+            if (other != made && !other->visibleRegion().isEmpty() && !tabifiedDockWidgets(other).isEmpty()) front = other;
+        placeWithTools(*this, docks, *made);
+        if (front) front->raise();
+    }
+    made->setVisible(shown);
+    updateDockTitles();
     return made;
 }
 
@@ -198,7 +235,7 @@ void MainWindow::render() {
 
 bool MainWindow::isSettled() const {
     return session_.isIdle() && views_.image->isSettled() && !views_.scene->isLoading() && !views_.scene->isMoving() &&
-           views_.filter->isSettled() && views_.region->isSettled();
+           views_.filter->isSettled() && views_.region->isSettled() && (!pluginHooks_.settled || pluginHooks_.settled());
 }
 
 }  // namespace emca::explorer

@@ -53,6 +53,16 @@ class MainWindow : public QMainWindow {
     void setSamples(std::uint32_t samplesPerPixel);
     QAction* action(const QString& name) const;
 
+    /// A dock that comes with a plugin: where a saved layout has it, else beside the first of `beside` that there is, else
+    /// with the tools. It is in the menu View.
+    PanelDock* addPanel(const QString& title, const QString& name, QWidget* widget, const QStringList& beside, bool shown);
+    /// What plugins have to say to the window's states and layouts.
+    struct PluginHooks {
+        std::function<bool()> settled;                      ///< nothing is being loaded
+        std::function<QVariantMap()> read;                  ///< their settings, for a layout
+        std::function<void(const QVariantMap&)> write;
+    };
+    void setPluginHooks(PluginHooks hooks) { pluginHooks_ = std::move(hooks); }
     /// Brings a dock's tab to the front.
     void showDock(const QString& name);
     /// Nothing is under way and every view has drawn what it has.
@@ -110,6 +120,8 @@ class MainWindow : public QMainWindow {
     StatusStrip* status_ = nullptr;
     SampleBox* samples_ = nullptr;
     QToolButton* connectButton_ = nullptr;
+    QAction* panelsEnd_ = nullptr;     ///< in the menu View, after the docks
+    PluginHooks pluginHooks_;
     std::vector<std::pair<QAction*, Icon>> icons_;
     bool arranged_ = false, samplesChosen_ = false, regionShown_ = false;
     EditHistory history_;

@@ -101,7 +101,7 @@ void MainWindow::addMenus() {
     for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
     for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
-    view->addSeparator();
+    panelsEnd_ = view->addSeparator();
     QMenu* layout = view->addMenu(tr("Layout"));
     layouts_->addTo(*layout);
     for (QAction* made : layout->actions())

@@ -38,6 +38,8 @@ set(EMCA_WINDOW_SOURCES
   window/view_options.h
   window/views.cpp
   window/views.h
+  window/window_plugins.cpp
+  window/window_plugins.h
 )
 set(EMCA_WINDOW_GL_TESTS
   window/edit_history_test.cpp
@@ -45,4 +47,5 @@ set(EMCA_WINDOW_GL_TESTS
   window/selection_updates_test.cpp
   window/session_files_test.cpp
   window/surface_layers_test.cpp
+  window/window_plugins_test.cpp
 )
