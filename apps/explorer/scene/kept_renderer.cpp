@@ -9,7 +9,25 @@
 namespace emca::explorer {
 namespace {
 
-constexpr int kDepthBits = 24;   ///< as in VTK's own buffer: depths are copied between equal formats alone
+/// Depths are copied between equal formats alone.
+struct DepthFormat {
+    GLint bits = 0, type = 0, stencilBits = 0;
+    friend bool operator==(const DepthFormat&, const DepthFormat&) = default;
+};
+
+/// Of the framebuffer that is bound for reading.
+DepthFormat readFormat() {
+    DepthFormat format;
+    const auto ask = [](GLenum attachment, GLenum what, GLint& answer) {
+        GLint kind = GL_NONE;
+        glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+        if (kind != GL_NONE) glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, attachment, what, &answer);
+    };
+    ask(GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, format.bits);
+    ask(GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, format.type);
+    ask(GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE, format.stencilBits);
+    return format;
+}
 
 }  // namespace
 
@@ -47,7 +65,11 @@ bool KeptRenderer::copy(bool back) {
             state->PopFramebufferBindings();
             return false;
         }
-        ready = kept_->PopulateFramebuffer(width_, height_, true, 1, VTK_UNSIGNED_CHAR, true, kDepthBits, 0, window->GetStencilCapable() != 0);
+        drawn->Bind(GL_READ_FRAMEBUFFER);
+        const DepthFormat format = readFormat();
+        ready = kept_->PopulateFramebuffer(width_, height_, true, 1, VTK_UNSIGNED_CHAR, true, format.bits, 0, format.stencilBits > 0);
+        kept_->Bind(GL_READ_FRAMEBUFFER);
+        ready = ready && readFormat() == format;   // else each frame is drawn
     }
     if (ready) {
         vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
