@@ -4,9 +4,10 @@
 #include "emca/analysis/format.h"
 #include "image/image_files.h"
 #include "image/image_view.h"
-#include "paths/filter_panel.h"
+#include "image/image_model.h"
 #include "image/region_panel.h"
 #include "image/region_tool.h"
+#include "paths/filter_panel.h"
 #include "paths/path_tree.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
@@ -62,22 +63,12 @@ void MainWindow::connectSession() {
     connect(views_.scene, &SceneView::reloadRequested, &session_, &SessionController::reloadScene);
     connect(views_.scene, &SceneView::connectRequested, this, [this] { connectPanel_->openBelow(connectButton_); });
     connect(views_.surfaces, &SurfacePanel::renderWanted, this, &MainWindow::render);
+    connectRegion();
     std::vector<QWidget*> pathViews{views_.paths, views_.scene};
     for (const Views::Plot& plot : views_.plots) pathViews.push_back(plot.widget);
     for (QWidget* view : pathViews) busy_.push_back({view, new StateOverlay(theme_, view)});
 }
 
-void MainWindow::showStates() {
-    StateOverlay& overlay = views_.image->overlay();
-    if (dataset_.currentImage()) {
-        overlay.clear();
-        return;
-    connectRegion();
-    }
-    if (session_.isOpeningSession()) {
-        overlay.showBusy(tr("Opening the session"), session_.sessionFraction(), tr("Cancel"), [this] { session_.cancelSession(); });
-        return;
-    }
 void MainWindow::connectRegion() {
     const auto askFilter = [this] {
         const FilterModel& model = views_.filter->model();
@@ -93,6 +84,10 @@ void MainWindow::connectRegion() {
     };
     connect(&session_, &SessionController::activityChanged, this, tellTracing);
     connect(&session_, &SessionController::linkChanged, this, tellTracing);
+    connect(&views_.image->model(), &ImageModel::displayChanged, this, [this] {
+        const ImageModel& image = views_.image->model();
+        views_.region->setReference(image.reference(), toQString(image.referenceTitle()));
+    });
     connect(&views_.image->regionTool(), &RegionTool::chosen, this, [this] {
         // The first region brings its numbers to the front; then the tabs are as a person wants them.
         if (!regionShown_ && !selection_.state().region.empty()) showDock("region");
@@ -100,6 +95,16 @@ void MainWindow::connectRegion() {
     });
 }
 
+void MainWindow::showStates() {
+    StateOverlay& overlay = views_.image->overlay();
+    if (dataset_.currentImage()) {
+        overlay.clear();
+        return;
+    }
+    if (session_.isOpeningSession()) {
+        overlay.showBusy(tr("Opening the session"), session_.sessionFraction(), tr("Cancel"), [this] { session_.cancelSession(); });
+        return;
+    }
     const auto openPanel = [this] { connectPanel_->openBelow(connectButton_); };
     switch (session_.link()) {
         case LinkState::offline:
