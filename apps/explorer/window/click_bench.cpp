@@ -130,6 +130,8 @@ int main(int argc, char** argv) {
     prepareOpenGl();
     EventTimes application(argc, argv);
     const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
+    // "region": the 65,536 paths of 8 x 8 pixels together instead of the 1,024 of one.
+    const bool region = argc > 2 && !std::strcmp(argv[2], "region");
     FakeRenderer renderer;
     renderer.samplesPerPixel = 1024;
     renderer.depth = 8;
@@ -152,7 +154,14 @@ int main(int argc, char** argv) {
     Bench bench(application, window);
     Row clicks, frames, paths, vertices;
     std::vector<double> renderers;
-    for (int i = 0; i < runs; ++i) {
+    for (int i = 0; i < (region ? std::min(runs, 3) : runs); ++i) {
+        if (region) {
+            const client::PixelRegion pixels(PixelRect{std::uint32_t(i), 3, std::uint32_t(i) + 8, 11});
+            bench.run(clicks, [&] { selection.setRegion(pixels); },
+                      [&] { return !dataset.current().empty() && client::PixelRegion(dataset.current().front()->pixels) == pixels; });
+            renderers.push_back(dataset.current().front()->renderSeconds * 1e3);
+            continue;
+        }
         const Pixel pixel{static_cast<std::uint32_t>(1 + i % 20), static_cast<std::uint32_t>(3 + i / 20)};
         bench.run(clicks, [&] { QTest::mouseClick(&canvas, Qt::LeftButton, {}, canvas.transform().rectOf(pixel).center().toPoint()); },
                   [&] { return !dataset.current().empty() && dataset.current().front()->pixels.front() == pixel; });

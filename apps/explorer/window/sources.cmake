@@ -44,6 +44,7 @@ set(EMCA_WINDOW_SOURCES
 set(EMCA_WINDOW_GL_TESTS
   window/edit_history_test.cpp
   window/main_window_test.cpp
+  window/region_test.cpp
   window/selection_updates_test.cpp
   window/session_files_test.cpp
   window/surface_layers_test.cpp
