@@ -56,7 +56,7 @@ CompareBar::CompareBar(ImageModel& model, Theme& theme, QWidget* parent)
     metric_->setObjectName("metric");
     metric_->setToolTip(tr("How they are compared (M next, Shift+M previous)"));
     metric_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    metric_->setMinimumContentsLength(15);
+    metric_->setMinimumContentsLength(20);
     for (std::size_t m = 0; m < analysis::kImageMetricCount; ++m) {
         const auto metric = static_cast<analysis::ImageMetric>(m);
         metric_->addItem(toQString(analysis::name(metric)));

@@ -23,6 +23,7 @@ ImageCanvas::ImageCanvas(const ImageModel& model, Theme& theme, QWidget* parent)
     setCursor(Qt::CrossCursor);
     connect(&model_, &ImageModel::pictureChanged, this, &ImageCanvas::imageChanged);
     connect(&theme_, &Theme::themeChanged, this, qOverload<>(&QWidget::update));
+    imageChanged();
 }
 
 void ImageCanvas::imageChanged() {

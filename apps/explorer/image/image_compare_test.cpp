@@ -417,6 +417,28 @@ TEST_F(ImageCompareTest, ARenderThatGoesOnIsComparedAsItIs) {
     EXPECT_EQ(view.model().content().values->at({4, 4})[0], 0.5f);
 }
 
+TEST_F(ImageCompareTest, PixelsStayWhereTheyAreWhileOneFlipsToTheDifference) {
+    addPair();
+    view.model().setReference(reference);
+    QTest::qWait(1);
+    const QPoint before = screen({7, 7});
+    for (const Qt::Key k : {Qt::Key_D, Qt::Key_W, Qt::Key_X, Qt::Key_X}) {
+        key(k);
+        QTest::qWait(1);
+        EXPECT_EQ(screen({7, 7}), before) << static_cast<int>(mode());
+    }
+}
+
+TEST_F(ImageCompareTest, ImagesThatWereThereBeforeTheViewAreShownWhole) {
+    addPair();
+    ImageView second(dataset, selection, theme);
+    second.resize(500, 400);
+    second.show();
+    QTest::qWait(1);
+    EXPECT_TRUE(second.canvas().transform().fitted());
+    EXPECT_GT(second.canvas().transform().zoom(), 5);
+}
+
 TEST_F(ImageCompareTest, ColoursOfTheThemeReachTheLineOfValuesAtOnce) {
     addPair();
     selection.setPixel(Pixel{4, 10});

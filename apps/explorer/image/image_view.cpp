@@ -34,6 +34,18 @@ namespace {
 
 constexpr int kPatienceMilliseconds = 300;
 
+/// Picture and colour bar on one ground, also where the bar leaves its place empty.
+class Ground : public QWidget {
+  public:
+    explicit Ground(Theme& theme) : theme_(theme) {}
+
+  protected:
+    void paintEvent(QPaintEvent*) override { QPainter(this).fillRect(rect(), theme_.colors().ground); }
+
+  private:
+    Theme& theme_;
+};
+
 }  // namespace
 
 ImageView::ImageView(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
@@ -58,12 +70,15 @@ ImageView::ImageView(client::Dataset& dataset, client::Selection& selection, The
 ImageView::~ImageView() = default;
 
 void ImageView::build() {
-    auto* middle = new QWidget;
+    auto* middle = new Ground(theme_);
     auto* row = new QHBoxLayout(middle);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(0);
     row->addWidget(canvas_, 1);
     row->addWidget(bar_);
+    ColorBarContent titled;
+    titled.title = QStringLiteral(" ");   // its width does not depend on the quantity
+    bar_->show(titled);
     bar_->hide();
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -112,6 +127,10 @@ void ImageView::showDisplay() {
     const ImageDisplay& display = model_->display();
     const ImageStyle style = display.style();
     values_->setRowCount(model_->reference() ? 2 : 1);
+    // While one flips between images and differences, the pixels stay where they are: the bar keeps its place.
+    QSizePolicy place = bar_->sizePolicy();
+    place.setRetainSizeWhenHidden(model_->reference() != nullptr);
+    bar_->setSizePolicy(place);
     bar_->setVisible(style.falseColor && model_->image() && model_->obstacle().isEmpty());
     if (style.falseColor && !model_->isComputing()) {
         ColorBarContent content = bar_->content();

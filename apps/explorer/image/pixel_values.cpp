@@ -52,11 +52,20 @@ std::optional<float> samplesOf(const RenderedImage& image, Pixel pixel) {
     return samples ? samples : channelValue(image.color, "samples", pixel);
 }
 
+/// Variances of the channels, weighted as luminance weights the channels: one number for the eye.
+std::optional<float> varianceOf(const RenderedImage& image, Pixel pixel) {
+    if (image.variance.contains(pixel)) return luminance(image.variance.color(pixel));
+    const auto r = channelValue(image.color, "variance.R", pixel), g = channelValue(image.color, "variance.G", pixel),
+               b = channelValue(image.color, "variance.B", pixel);
+    if (!r || !g || !b) return std::nullopt;
+    return luminance(Color(*r, *g, *b));
+}
+
 std::vector<Value> spread(const RenderedImage& image, Pixel pixel) {
     std::vector<Value> values;
     // Number first, as people say it.
     if (const auto samples = samplesOf(image, pixel)) values.push_back({QString::number(static_cast<int>(*samples)), "spp", Ink::plain, false});
-    if (image.variance.contains(pixel)) values.push_back(valueOf(QStringLiteral("σ²"), luminance(image.variance.color(pixel)), Ink::muted));
+    if (const auto variance = varianceOf(image, pixel)) values.push_back(valueOf(QStringLiteral("σ²"), *variance, Ink::muted));
     return values;
 }
 
