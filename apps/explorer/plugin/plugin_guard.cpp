@@ -2,6 +2,7 @@
 
 #include <QAbstractEventDispatcher>
 #include <QThread>
+#include <algorithm>
 #include <cstring>
 #include <exception>
 
@@ -32,6 +33,7 @@ PluginGuard::Slot PluginGuard::add(QObject* root, const QString& file, std::func
         std::memcpy(files_[slot], name.constData(), std::size_t(name.size()) + 1);
         entries_[slot] = {root, std::move(failed)};
         ++count_;
+        used_ = std::max(used_, slot + 1);
         return slot;
     }
     return kNobody;
@@ -45,7 +47,7 @@ void PluginGuard::remove(Slot slot) {
 
 PluginGuard::Slot PluginGuard::ownerOf(const QObject* object) const {
     for (; object; object = object->parent())
-        for (Slot slot = 0; slot < kSlots; ++slot)
+        for (Slot slot = 0; slot < used_; ++slot)
             if (entries_[slot].root == object) return slot;
     return kNobody;
 }
@@ -57,20 +59,6 @@ void PluginGuard::report(Slot slot) {
     if (tell) tell(what);
 }
 
-bool PluginGuard::notify(QObject* receiver, QEvent* event, const std::function<bool()>& deliver) {
-    if (count_ == 0) return deliver();
-    const Slot owner = ownerOf(receiver), outer = current_.load();
-    const Scope scope(*this, owner);
-    // The receiver may be gone after its event; who it was is known before.
-    Q_UNUSED(event);
-    try {
-        return deliver();
-    } catch (...) {
-        report(owner != kNobody ? owner : outer);
-        return true;
-    }
-}
-
 GuardedApplication::GuardedApplication(int& argc, char** argv) : QApplication(argc, argv) {
     if (auto* dispatcher = QAbstractEventDispatcher::instance()) {
         connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, [] { PluginGuard::instance().setIdle(true); });
@@ -79,8 +67,8 @@ GuardedApplication::GuardedApplication(int& argc, char** argv) : QApplication(ar
 }
 
 bool GuardedApplication::notify(QObject* receiver, QEvent* event) {
-    if (PluginGuard::instance().isEmpty() || QThread::currentThread() != thread()) return QApplication::notify(receiver, event);
-    return PluginGuard::instance().notify(receiver, event, [&] { return QApplication::notify(receiver, event); });
+    if (QThread::currentThread() != thread()) return QApplication::notify(receiver, event);
+    return PluginGuard::instance().notify(receiver, [&] { return QApplication::notify(receiver, event); });
 }
 
 }  // namespace emca::explorer

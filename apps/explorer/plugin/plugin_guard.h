@@ -44,8 +44,20 @@ class PluginGuard {
         }
     }
 
-    /// The body of QApplication::notify.
-    bool notify(QObject* receiver, QEvent* event, const std::function<bool()>& deliver);
+    /// The body of QApplication::notify. \param deliver  what Qt does; called once
+    template <typename Deliver>
+    bool notify(const QObject* receiver, Deliver deliver) {
+        if (isEmpty()) return deliver();
+        // The receiver may be gone after its event: who it belongs to is known before.
+        const Slot owner = ownerOf(receiver), outer = current_.load();
+        const Scope scope(*this, owner);
+        try {
+            return deliver();
+        } catch (...) {
+            report(owner != kNobody ? owner : outer);
+            return true;
+        }
+    }
     /// Whom an object belongs to, by its parents.
     Slot ownerOf(const QObject* object) const;
     bool isEmpty() const { return count_ == 0; }
@@ -89,7 +101,7 @@ class PluginGuard {
     };
     Entry entries_[kSlots];
     char files_[kSlots][kNameBytes] = {};
-    int count_ = 0;
+    int count_ = 0, used_ = 0;   ///< plugins; slots up to the last one that was ever used
     std::function<void(const QString&)> unknown_;
     std::atomic<Slot> current_{kNobody};
     std::atomic<std::int64_t> since_{0};

@@ -46,7 +46,7 @@ QString PluginManager::key(const QString& file, const char* what) const {
 void PluginManager::start() {
     QDir().mkpath(QFileInfo(markPrefix(around_.settings)).path());
     readMarks();
-    watch_ = std::make_unique<PluginWatch>(markPrefix(around_.settings), options_.blockLimit);
+    watch_ = std::make_unique<PluginWatch>(markPrefix(around_.settings), options_.blockLimit, options_.probeProgram);
     connect(watch_.get(), &PluginWatch::released, this, [this](const QString& file, double seconds) {
         const PluginRecord* record = find(file);
         emit problem(tr("The plugin %1 kept the window from answering for %2 s. The page \"Plugins\" switches it off.")

@@ -31,7 +31,7 @@ class PluginManager : public QObject {
         QStringList folders;             ///< looked through in this order; of two files of one id the first wins
         QStringList files;               ///< besides
         QString probeProgram;            ///< the child of PluginProbe
-        std::chrono::milliseconds probeLimit{10000};
+        std::chrono::milliseconds probeLimit{20000};
         std::chrono::milliseconds blockLimit{5000};
         /// The installation's folder and that of the person; the program stands beside ours.
         static Options standard();

@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QFile>
 #include <QLabel>
+#include <QProcess>
 #include <QPushButton>
 #include <QTemporaryDir>
 #include <QTest>
@@ -12,6 +13,7 @@
 
 #include "base/state_overlay.h"
 #include "emca/server/server.h"
+#include "plugin/blocked_notice.h"
 #include "plugin/plugin_manager.h"
 #include "plugin/plugins_panel.h"
 #include "plugin/probe_steps.h"
@@ -246,7 +248,7 @@ TEST_F(PluginTest, WhatHangsWhileItIsTriedIsEndedAndTheWindowGoesOn) {
         EXPECT_TRUE(record.reason.contains("did not come back")) << record.reason.toStdString();
     }
     setMood("");
-    options.probeLimit = std::chrono::milliseconds(10000);
+    options.probeLimit = std::chrono::milliseconds(20000);
     begin();
     manager->start();
     ASSERT_TRUE(waitFor([&] { return manager->isSettled(); }));
@@ -306,6 +308,27 @@ TEST_F(PluginTest, WhoeverBlocksTheWindowIsNamed) {
     ASSERT_TRUE(waitFor([&] { return !problems.isEmpty(); }));
     EXPECT_TRUE(problems[0].contains("Moody") && problems[0].contains("kept the window")) << problems[0].toStdString();
     EXPECT_TRUE(QDir(folder.path()).entryList({"*.plugin-blocks"}).isEmpty()) << "it came back, so nothing is held against it";
+}
+
+TEST_F(PluginTest, TheNoticeGoesWithTheBlockAndEndsTheExplorerIfAPersonWants) {
+    QFile mark(folder.filePath("mark"));
+    ASSERT_TRUE(mark.open(QIODevice::WriteOnly));
+    QProcess explorer;   // stands for it
+    explorer.start("sleep", {"600"});
+    ASSERT_TRUE(explorer.waitForStarted());
+    BlockedNotice notice(theme, "Moody", mark.fileName(), explorer.processId());
+    int over = 0;
+    QObject::connect(&notice, &BlockedNotice::over, [&] { ++over; });
+    notice.show();
+    QTest::qWait(450);
+    EXPECT_EQ(over, 0);
+    for (QPushButton* button : notice.findChildren<QPushButton*>())
+        if (button->text().contains("End")) QTest::mouseClick(button, Qt::LeftButton);
+    EXPECT_TRUE(explorer.waitForFinished());
+    EXPECT_EQ(over, 1);
+    EXPECT_FALSE(isAlive(999999999));
+    mark.remove();
+    EXPECT_TRUE(waitFor([&] { return over > 1; }));
 }
 
 TEST_F(PluginTest, AnIdleLoopThatAPluginOpenedBlocksNobody) {

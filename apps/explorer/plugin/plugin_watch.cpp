@@ -1,19 +1,18 @@
 #include "plugin/plugin_watch.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QMetaObject>
-#include <cerrno>
+#include <QProcess>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 
+#include "plugin/blocked_notice.h"
 #include "plugin/plugin_guard.h"
 
 namespace emca::explorer {
@@ -41,12 +40,10 @@ void onCrash(int signal) {
     std::raise(signal);
 }
 
-bool isAlive(qint64 process) { return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
-
 }  // namespace
 
-PluginWatch::PluginWatch(const QString& prefix, std::chrono::milliseconds limit, QObject* parent)
-    : QObject(parent), prefix_(prefix), limit_(limit), thread_([this] { look(); }) {}
+PluginWatch::PluginWatch(const QString& prefix, std::chrono::milliseconds limit, const QString& program, QObject* parent)
+    : QObject(parent), prefix_(prefix), program_(program), limit_(limit), thread_([this] { look(); }) {}
 
 PluginWatch::~PluginWatch() {
     {
@@ -55,6 +52,16 @@ PluginWatch::~PluginWatch() {
     }
     wake_.notify_all();
     thread_.join();
+}
+
+void PluginWatch::begin(const QString& plugin, double seconds) {
+    const QString mark = fileName(prefix_, kBlocked), name = QFileInfo(plugin).completeBaseName();
+    QFile file(mark);
+    if (file.open(QIODevice::WriteOnly)) file.write(plugin.toUtf8());
+    file.close();
+    std::fprintf(stderr, "emca-explorer: the plugin \"%s\" keeps the window from answering for %.1f s now. If the explorer is ended, the next start leaves it out.\n",
+                 qUtf8Printable(name), seconds);
+    if (!program_.isEmpty()) QProcess::startDetached(program_, {"--blocked", name, mark, QString::number(QCoreApplication::applicationPid())});
 }
 
 void PluginWatch::look() {
@@ -71,10 +78,7 @@ void PluginWatch::look() {
             begun = since;
             slot = now;
             marked = QString::fromUtf8(guard.fileOf(now));
-            QFile file(fileName(prefix_, kBlocked));
-            if (file.open(QIODevice::WriteOnly)) file.write(marked.toUtf8());
-            std::fprintf(stderr, "emca-explorer: the plugin \"%s\" keeps the window from answering for %.0f s now. If the explorer is ended, the next start leaves it out.\n",
-                         qUtf8Printable(QFileInfo(marked).fileName()), std::chrono::duration<double>(at - since).count());
+            begin(marked, std::chrono::duration<double>(at - since).count());
         } else if (!marked.isEmpty() && (now != slot || since != begun)) {
             QFile::remove(fileName(prefix_, kBlocked));
             emit released(marked, std::chrono::duration<double>(since - begun).count());

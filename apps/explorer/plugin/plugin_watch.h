@@ -24,8 +24,9 @@ struct PluginMark {
 class PluginWatch : public QObject {
     Q_OBJECT
   public:
-    /// \param prefix  of the files for marks; the process's number and a kind are added
-    PluginWatch(const QString& prefix, std::chrono::milliseconds limit, QObject* parent = nullptr);
+    /// \param prefix   of the files for marks; the process's number and a kind are added
+    /// \param program  shows a BlockedNotice while the window cannot show anything; empty: none
+    PluginWatch(const QString& prefix, std::chrono::milliseconds limit, const QString& program, QObject* parent = nullptr);
     ~PluginWatch() override;
 
     /// Writes a mark if the process crashes inside of a plugin. For the whole process; from main().
@@ -39,7 +40,8 @@ class PluginWatch : public QObject {
 
   private:
     void look();
-    QString prefix_;
+    void begin(const QString& file, double seconds);
+    QString prefix_, program_;
     std::chrono::milliseconds limit_;
     std::mutex mutex_;
     std::condition_variable wake_;

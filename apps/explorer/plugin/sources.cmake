@@ -1,4 +1,6 @@
 set(EMCA_PLUGIN_SOURCES
+  plugin/blocked_notice.cpp
+  plugin/blocked_notice.h
   plugin/host_context.cpp
   plugin/host_context.h
   plugin/plugin_guard.cpp
