@@ -6,6 +6,7 @@
 
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
+#include "base/table_text.h"
 #include "emca/analysis/format.h"
 #include "paths/path_entries.h"
 
@@ -53,6 +54,7 @@ QVariant OutlierModel::data(const QModelIndex& index, int role) const {
     const Found& found = found_[static_cast<std::size_t>(index.row())];
     if (role == Qt::TextAlignmentRole)
         return int(Qt::AlignVCenter | (index.column() == kPath ? Qt::AlignLeft : Qt::AlignRight));
+    if (role == kCopyRole && index.column() == kValue) return toQString(analysis::formatFull(found.value));
     if (role != Qt::DisplayRole) return {};
     switch (index.column()) {
         case kPath:

@@ -15,6 +15,7 @@
 
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
+#include "base/table_text.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
 #include "paths/outlier_model.h"
@@ -123,6 +124,7 @@ void OutlierPanel::build() {
 
 void OutlierPanel::styleTable() {
     table_->setModel(model_);
+    enableTableCopy(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table_->setShowGrid(false);

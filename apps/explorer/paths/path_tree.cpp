@@ -15,6 +15,7 @@
 
 #include "base/path_ids.h"
 #include "base/state_overlay.h"
+#include "base/table_text.h"
 #include "base/theme.h"
 #include "paths/path_tree_delegate.h"
 #include "paths/path_tree_model.h"
@@ -328,6 +329,7 @@ void PathTree::showMenu(const QPoint& position) {
         QAction* copy = menu.addAction(tr("Copy value"), this, [this, index] { copyValue(index); });
         copy->setEnabled(!index.data(PathTreeModel::kFullTextRole).toString().isEmpty());
         menu.addAction(tr("Copy as text"), this, &PathTree::copyAsText, QKeySequence::Copy);
+        addTableExport(menu, *view_);
         menu.addSeparator();
     }
     menu.addAction(inspecting_ ? tr("Show all paths") : tr("Show selected paths"), this,

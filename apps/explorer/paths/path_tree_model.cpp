@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/qt_compat.h"
+#include "base/table_text.h"
 #include "emca/analysis/format.h"
 
 namespace emca::explorer {
@@ -306,6 +307,10 @@ QVariant PathTreeModel::data(const QModelIndex& index, int role) const {
     if (!index.isValid()) return {};
     const Node n = node(index);
     if (role == kNodeKindRole) return int(n.kind);
+    if (role == kCopyRole) {
+        const QString full = index.column() == kValue ? data(index, kFullTextRole).toString() : QString();
+        return full.isEmpty() ? QVariant() : QVariant(full);
+    }
     switch (n.kind) {
         case Kind::path:
             return pathData(n.owner, index.column(), role);

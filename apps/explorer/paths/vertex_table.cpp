@@ -4,13 +4,13 @@
 #include <QClipboard>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QKeyEvent>
 #include <QMenu>
 #include <QTableView>
 #include <QToolButton>
 
 #include "base/path_ids.h"
 #include "base/state_overlay.h"
+#include "base/table_text.h"
 #include "base/text_line.h"
 #include "base/theme.h"
 #include "paths/path_entries.h"
@@ -42,6 +42,7 @@ VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection,
     forward_->setText(QStringLiteral("›"));
     forward_->setToolTip(tr("Next vertex on the path ( . )"));
     table_->setModel(model_);
+    enableTableCopy(*table_);
     table_->setItemDelegate(new VertexTableDelegate(theme, this));
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setShowGrid(false);
@@ -126,15 +127,6 @@ void VertexTable::showNeighbours() {
     table_->setColumnHidden(VertexTableModel::kNext, !room);
 }
 
-void VertexTable::keyPressEvent(QKeyEvent* event) {
-    if (event->matches(QKeySequence::Copy)) {
-        QApplication::clipboard()->setText(model_->asText());
-        event->accept();
-        return;
-    }
-    QWidget::keyPressEvent(event);
-}
-
 void VertexTable::showMenu(const QPoint& position) {
     const QModelIndex index = table_->indexAt(position);
     QMenu menu(this);
@@ -143,7 +135,7 @@ void VertexTable::showMenu(const QPoint& position) {
         menu.addAction(tr("Copy value"), this, [full] { QApplication::clipboard()->setText(full); })
             ->setEnabled(!full.isEmpty());
     }
-    menu.addAction(tr("Copy table as text"), this, [this] { QApplication::clipboard()->setText(model_->asText()); });
+    addTableActions(menu, *table_);
     menu.exec(table_->viewport()->mapToGlobal(position));
 }
 

@@ -27,7 +27,6 @@ class VertexTable : public QWidget {
 
   protected:
     void resizeEvent(QResizeEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
 
   private:
     void reload();

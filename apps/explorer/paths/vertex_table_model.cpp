@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/table_text.h"
+
 namespace emca::explorer {
 namespace {
 
@@ -104,16 +106,6 @@ const VertexTableModel::Cell& VertexTableModel::cell(int row, Column column) con
     return rows_[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(column - kPrevious)];
 }
 
-QString VertexTableModel::asText() const {
-    QString text;
-    for (const Row& row : rows_) {
-        text += row.quantity;
-        for (const Cell& cell : row.cells) text += QLatin1Char('\t') + cell.full;
-        text += QLatin1Char('\n');
-    }
-    return text;
-}
-
 QVariant VertexTableModel::data(const QModelIndex& index, int role) const {
     if (!index.isValid()) return {};
     if (index.column() == kQuantity) return role == Qt::DisplayRole ? QVariant(quantity(index.row())) : QVariant();
@@ -121,6 +113,7 @@ QVariant VertexTableModel::data(const QModelIndex& index, int role) const {
     if (!cell.present) return {};
     if (role == Qt::DisplayRole)
         return cell.value.numbers.isEmpty() ? cell.value.text : cell.value.numbers.join(QStringLiteral("  "));
+    if (role == kCopyRole) return cell.full;
     if (role == Qt::ToolTipRole) return quantity(index.row()) + QStringLiteral(": ") + cell.full;
     return {};
 }

@@ -36,8 +36,6 @@ class VertexTableModel : public QAbstractTableModel {
 
     QString quantity(int row) const { return rows_[static_cast<std::size_t>(row)].quantity; }
     const Cell& cell(int row, Column column) const;
-    /// Tab-separated, values in full.
-    QString asText() const;
 
     int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : int(rows_.size()); }
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumnCount; }

@@ -7,7 +7,6 @@ PathPlotRow depthRow() {
     PathPlotRow row;
     row.axis = {QStringLiteral("path depth"), {}, true, false};
     row.color = &ThemeColors::data;
-    row.log = false;
     row.series = [](const PathSet& paths) { return analysis::pathSeries(paths, analysis::PathQuantity::depth); };
     return row;
 }

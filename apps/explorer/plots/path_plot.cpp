@@ -2,8 +2,8 @@
 
 #include <QApplication>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLocale>
 #include <QMenu>
 #include <QScopedValueRollback>
@@ -13,6 +13,7 @@
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
+#include "base/table_text.h"
 #include "base/text_line.h"
 #include "emca/analysis/format.h"
 #include "plots/marginal_histogram.h"
@@ -134,13 +135,13 @@ void PathPlot::connectRow(Row& row) {
 
 void PathPlot::reload() {
     const PathSet& paths = dataset_.paths();
-    for (const auto& row : rows_) {
     // Sample indices of several pixels are the same numbers: their paths stand one pixel after the other.
     const bool several = severalPixels(paths);
     if (several != several_) {
         several_ = several;
         for (const auto& row : rows_) row->plot->setAxes({several ? tr("path, pixel after pixel") : tr("sample index"), {}, true, false}, row->spec.axis);
     }
+    for (const auto& row : rows_) {
         row->series = row->spec.series(paths);
         row->shown = !row->spec.optional || !row->series.values.empty();
         std::vector<double> samples;
@@ -295,11 +296,11 @@ void PathPlot::showMenu(const Row& row, const QPoint& position, std::optional<st
                        [value] { QApplication::clipboard()->setText(toQString(analysis::formatFull(value))); });
         menu.addSeparator();
     }
-    menu.addAction(tr("Copy all values as CSV"), this, [this] { QApplication::clipboard()->setText(csv()); });
-    QMenu* save = menu.addMenu(tr("Export"));
-    save->addAction(tr("PNG picture…"), this, [this] { askForFile("png", tr("PNG picture (*.png)")); });
-    save->addAction(tr("SVG drawing…"), this, [this] { askForFile("svg", tr("SVG drawing (*.svg)")); });
-    save->addAction(tr("CSV values…"), this, [this] { askForFile("csv", tr("CSV values (*.csv)")); });
+    addExportActions(menu, exporting());
+    menu.addAction(tr("Copy histograms"), this, [this] {
+        QApplication::clipboard()->setText(tabsFromCsv(histogramCsv()));
+        emit message(tr("Copied the histograms"));
+    });
     menu.addSeparator();
     if (row.spec.log) {
         QAction* log = menu.addAction(tr("Logarithmic values"), this, [this] { setLog(!log_); });
@@ -310,18 +311,29 @@ void PathPlot::showMenu(const Row& row, const QPoint& position, std::optional<st
     menu.exec(position);
 }
 
-void PathPlot::askForFile(const QString& ending, const QString& filter) {
-    QString file = QFileDialog::getSaveFileName(this, tr("Export plot"), QString(), filter);
-    if (file.isEmpty()) return;
-    if (!file.endsWith(QLatin1Char('.') + ending, Qt::CaseInsensitive)) file += QLatin1Char('.') + ending;
-    const Result<void> written = exportTo(file);
-    emit message(written ? tr("Wrote \"%1\"").arg(file) : toQString(written.error().message));
+PlotExport PathPlot::exporting() {
+    return {this, area_, rows_.front()->spec.axis.quantity, [this](const QString& file, int scale) { return exportTo(file, scale); },
+            [this] { return csv(); }, [this](const QString& sentence) { emit message(sentence); }};
 }
 
-Result<void> PathPlot::exportTo(const QString& file) {
+bool PathPlot::event(QEvent* event) {
+    // Copying belongs to the plot while it has the focus, whatever the window uses the keys for.
+    if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy)) {
+        event->accept();
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+void PathPlot::keyPressEvent(QKeyEvent* event) {
+    if (handleExportKeys(*event, exporting())) event->accept();
+    else QWidget::keyPressEvent(event);
+}
+
+Result<void> PathPlot::exportTo(const QString& file, int scale) {
     if (file.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive)) return exportText(csv(), file);
     for (const auto& row : rows_) row->plot->setExporting(true);
-    Result<void> written = exportPicture(*area_, file);
+    Result<void> written = exportPicture(*area_, file, scale);
     for (const auto& row : rows_) row->plot->setExporting(false);
     return written;
 }
@@ -348,6 +360,26 @@ QString PathPlot::csv() const {
             }
         }
         text += QLatin1Char('\n');
+    }
+    return text;
+}
+
+QString PathPlot::histogramCsv() const {
+    QString text = QStringLiteral("quantity,from,to,paths,selected\n");
+    const auto full = [](double value) { return toQString(analysis::formatFull(value)); };
+    for (const auto& row : rows_) {
+        if (!row->shown) continue;
+        const analysis::Histogram &all = row->plot->histogram()->bars(), &chosen = row->plot->histogram()->selectedBars();
+        const auto line = [&](const QString& from, const QString& to, std::uint64_t paths, std::uint64_t selected) {
+            text += QStringLiteral("%1,%2,%3,%4,%5\n").arg(row->spec.axis.quantity, from, to).arg(paths).arg(selected);
+        };
+        const bool some = chosen.binCount() == all.binCount();
+        if (all.below + all.negativeInfinite > 0)
+            line({}, full(all.range.min), all.below + all.negativeInfinite, some ? chosen.below + chosen.negativeInfinite : 0);
+        for (std::size_t i = 0; i < all.binCount(); ++i) line(full(all.lower(i)), full(all.upper(i)), all.counts[i], some ? chosen.counts[i] : 0);
+        if (all.above + all.positiveInfinite > 0)
+            line(full(all.range.max), {}, all.above + all.positiveInfinite, some ? chosen.above + chosen.positiveInfinite : 0);
+        if (all.nan > 0) line(QStringLiteral("NaN"), QStringLiteral("NaN"), all.nan, some ? chosen.nan : 0);
     }
     return text;
 }

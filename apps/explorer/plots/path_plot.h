@@ -7,6 +7,7 @@
 
 #include "base/listeners.h"
 #include "emca/analysis/path_quantities.h"
+#include "plots/plot_export.h"
 #include "plots/scatter_plot.h"
 
 class QToolButton;
@@ -40,8 +41,12 @@ class PathPlot : public QWidget {
     std::size_t rowCount() const { return rows_.size(); }
     /// One line per path: pixel, sample, part and the quantities of all rows, numbers in full.
     QString csv() const;
-    /// PNG, SVG or CSV by the ending of the name. Errors: fileUnwritable.
-    Result<void> exportTo(const QString& file);
+    /// The histograms beside the rows: quantity, ends of each bar, paths, selected paths; what lies beyond as bars that
+    /// have no end.
+    QString histogramCsv() const;
+    /// PNG, SVG or CSV by the ending of the name. Errors: fileUnwritable. \param scale  of PNG
+    Result<void> exportTo(const QString& file, int scale = 2);
+    PlotExport exporting();
 
   signals:
     /// A sentence for the status bar.
@@ -51,6 +56,8 @@ class PathPlot : public QWidget {
     PathPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme, std::vector<PathPlotRow> rows,
              QWidget* parent);
     void resizeEvent(QResizeEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    bool event(QEvent* event) override;
 
   private:
     struct Row {
@@ -69,7 +76,6 @@ class PathPlot : public QWidget {
     void alignAxes();
     void choose(const Row& row, const QVector<quint32>& points, bool add);
     void showMenu(const Row& row, const QPoint& position, std::optional<std::uint32_t> point);
-    void askForFile(const QString& ending, const QString& filter);
     QString describe(const Row& row, std::uint32_t point) const;
     std::optional<std::uint32_t> pointOf(const Row& row, Index path) const;
 
@@ -82,10 +88,10 @@ class PathPlot : public QWidget {
     QToolButton* resetButton_;
     TextLine* summary_;
     StateOverlay* overlay_;
+    bool several_ = false;   ///< paths of more than one pixel
     bool log_ = false, aligning_ = false;
     DatasetListening datasetListening_;
     SelectionListening selectionListening_;
 };
 
 }  // namespace emca::explorer
-    bool several_ = false;   ///< paths of more than one pixel

@@ -32,6 +32,7 @@ set(EMCA_PLOTS_SOURCES
   plots/top_histogram.h
 )
 set(EMCA_PLOTS_TESTS
+  plots/plot_export_test.cpp
   plots/path_plot_test.cpp
   plots/plot_axis_test.cpp
   plots/plot_frame_test.cpp

@@ -1,0 +1,19 @@
+set(EMCA_PARALLEL_SOURCES
+  parallel/line_pictures.cpp
+  parallel/line_pictures.h
+  parallel/parallel_axes.cpp
+  parallel/parallel_axes.h
+  parallel/parallel_canvas.cpp
+  parallel/parallel_canvas.h
+  parallel/parallel_frame.cpp
+  parallel/parallel_frame.h
+  parallel/parallel_mouse.cpp
+  parallel/parallel_paint.cpp
+  parallel/parallel_plot.cpp
+  parallel/parallel_plot.h
+)
+set(EMCA_PARALLEL_TESTS
+  parallel/parallel_axes_test.cpp
+  parallel/parallel_frame_test.cpp
+  parallel/parallel_plot_test.cpp
+)
