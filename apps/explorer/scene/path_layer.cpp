@@ -23,8 +23,8 @@ float densityOpacity(std::size_t paths) {
 
 }  // namespace
 
-PathLayer::PathLayer(vtkRenderer& strokes, const PathColoring& coloring)
-    : coloring_(coloring), context_(strokes), coarseContext_(strokes), contextNextEvents_(strokes), selectedNextEvents_(strokes), selected_(strokes),
+PathLayer::PathLayer(vtkRenderer& context, vtkRenderer& strokes, const PathColoring& coloring)
+    : coloring_(coloring), context_(context), coarseContext_(context), contextNextEvents_(context), selectedNextEvents_(strokes), selected_(strokes),
       current_(strokes), marks_(strokes) {}
 
 void PathLayer::setPaths(const PathSet* paths, const PathGeometry* geometry) {
@@ -47,10 +47,12 @@ void PathLayer::apply(const SceneOptions& options, const ThemeColors& colors) {
     rebuildSelected();
 }
 
-void PathLayer::setSelection(ShownSelection selection) {
-    if (selection == selection_) return;
+bool PathLayer::setSelection(ShownSelection selection) {
+    if (selection == selection_) return false;
+    const bool before = dimmed_;
     selection_ = std::move(selection);
     rebuildSelected();
+    return dimmed_ != before;
 }
 
 void PathLayer::setRays(ShownRays rays) {
@@ -199,7 +201,7 @@ void PathLayer::rebuildSelected() {
 }
 
 void PathLayer::updateDimming() {
-    const bool dimmed = !selection_.paths.empty();
+    const bool dimmed = dimmed_ = !selection_.paths.empty();
     const float density = densityOpacity(drawn_.size()) * options_.pathOpacity;
     const float someDensity = densityOpacity(std::min(drawn_.size(), kCoarsePaths)) * options_.pathOpacity;
     coarseContext_.look().opacity = dimmed ? 0.15f * someDensity + 0.02f : someDensity;

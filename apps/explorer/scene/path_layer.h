@@ -34,13 +34,15 @@ struct ShownRoles {
 /// one on top, so that a click costs what the selected paths have, not what the pixel has.
 class PathLayer {
   public:
-    /// \param coloring  outlives the layer
-    PathLayer(vtkRenderer& strokes, const PathColoring& coloring);
+    /// \param context  draws what a selection at most dims  \param strokes  draws what is selected  \param coloring  outlives
+    /// the layer
+    PathLayer(vtkRenderer& context, vtkRenderer& strokes, const PathColoring& coloring);
 
     /// \param paths, geometry  must stay as they are until the next call
     void setPaths(const PathSet* paths, const PathGeometry* geometry);
     void apply(const SceneOptions& options, const ThemeColors& colors);
-    void setSelection(ShownSelection selection);
+    /// True if what is not selected looks other than before.
+    bool setSelection(ShownSelection selection);
     void setRays(ShownRays rays);
     /// The coloring has others than before.
     void recolor();
@@ -74,7 +76,7 @@ class PathLayer {
     std::vector<Index> drawn_;
     StrokeLayer context_, coarseContext_, contextNextEvents_, selectedNextEvents_, selected_, current_, marks_;
     ShownRoles contextRoles_, selectedRoles_;
-    bool begun_ = false, coarse_ = false;
+    bool begun_ = false, coarse_ = false, dimmed_ = false;
 };
 
 }  // namespace emca::explorer

@@ -31,16 +31,20 @@ SceneCanvas::SceneCanvas(Theme& theme, QWidget* parent) : QVTKOpenGLNativeWidget
     setFocusPolicy(Qt::StrongFocus);
     vtkNew<vtkGenericOpenGLRenderWindow> window;
     window->SetMultiSamples(0);
-    window->SetNumberOfLayers(2);
+    window->SetNumberOfLayers(3);
     window->AddRenderer(surfaces_);
+    window->AddRenderer(context_);
     window->AddRenderer(strokes_);
     setRenderWindow(window.Get());
     // The view moves its camera itself: VTK's interactor styles swallow button releases.
     interactor()->SetInteractorStyle(nullptr);
-    strokes_->SetLayer(1);
-    strokes_->SetPreserveDepthBuffer(true);
-    strokes_->SetActiveCamera(surfaces_->GetActiveCamera());
-    for (vtkRenderer* renderer : {static_cast<vtkRenderer*>(surfaces_.Get()), strokes_.Get()}) {
+    context_->SetLayer(1);
+    strokes_->SetLayer(2);
+    for (vtkRenderer* renderer : {static_cast<vtkRenderer*>(context_.Get()), strokes_.Get()}) {
+        renderer->SetPreserveDepthBuffer(true);
+        renderer->SetActiveCamera(surfaces_->GetActiveCamera());
+    }
+    for (vtkRenderer* renderer : {static_cast<vtkRenderer*>(surfaces_.Get()), static_cast<vtkRenderer*>(context_.Get()), strokes_.Get()}) {
         renderer->GetCullers()->RemoveAllItems();
         renderer->SetAutomaticLightCreation(false);
     }
@@ -90,6 +94,11 @@ void SceneCanvas::applyPose() {
 
 void SceneCanvas::requestRender() {
     surfaces_->forget();
+    requestContext();
+}
+
+void SceneCanvas::requestContext() {
+    context_->forget();
     requestStrokes();
 }
 
@@ -136,6 +145,7 @@ QImage SceneCanvas::renderImage(QSize size) {
     window->SetSize(size.width(), size.height());
     pixelScale_ = std::max(1.f, static_cast<float>(size.height()) / static_cast<float>(std::max(this->height(), 1)));
     surfaces_->forget();
+    context_->forget();
     applyPose();
     emit aboutToRender();
     window->Render();

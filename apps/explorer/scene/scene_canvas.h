@@ -16,8 +16,9 @@ class vtkRenderer;
 
 namespace emca::explorer {
 
-/// The OpenGL surface of the 3D view: two layers with one camera. Surfaces lie below; strokes are drawn over them with
-/// the depth of what is opaque, so that translucent walls never tint the data. Renders when Qt paints, at most once per
+/// The OpenGL surface of the 3D view: three layers with one camera. Surfaces lie below; over them, with the depth of what is
+/// opaque, so that translucent walls never tint the data, strokes that a selection does not change, and over those the
+/// ones that it does. Renders when Qt paints, at most once per
 /// turn of the event loop. Takes no input itself.
 class SceneCanvas : public QVTKOpenGLNativeWidget {
     Q_OBJECT
@@ -26,6 +27,7 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     ~SceneCanvas() override;
 
     vtkRenderer& surfaces() { return *surfaces_; }
+    vtkRenderer& context() { return *context_; }
     vtkRenderer& strokes() { return *strokes_; }
 
     const ViewPose& pose() const { return pose_; }
@@ -39,7 +41,9 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     double farPlane() const { return far_; }
 
     void requestRender();
-    /// Only strokes have changed: the surfaces' picture is kept.
+    /// Surfaces are as they were: their picture is kept.
+    void requestContext();
+    /// Only strokes of the uppermost layer have changed: the picture below them is kept.
     void requestStrokes();
     /// How often the surfaces were drawn so far.
     std::uint64_t surfaceFrameCount() const { return surfaces_->drawnFrames(); }
@@ -68,7 +72,7 @@ class SceneCanvas : public QVTKOpenGLNativeWidget {
     void restyle();
 
     Theme& theme_;
-    vtkNew<KeptRenderer> surfaces_;
+    vtkNew<KeptRenderer> surfaces_, context_;
     vtkNew<vtkRenderer> strokes_;
     ViewPose pose_;
     Vec3d extentCentre_;

@@ -63,6 +63,7 @@ SceneOptionsPanel::SceneOptionsPanel(SceneView& view, Theme& theme, QWidget* par
     addCheck(camera, "Axes", &SceneOptions::axes, "Directions of the world's axes, top right");
     addCheck(camera, "Legend", &SceneOptions::legend, "What the colours mean");
     auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(Spacing::small);
     for (const auto& [text, tip, slot] : {std::tuple("Reset", "The renderer's camera (Home)", &SceneView::resetCamera),
                                           std::tuple("Focus", "Selection, or the whole scene (F)", &SceneView::focusSelection),
                                           std::tuple("Back", "The view before (Backspace)", &SceneView::back)}) {
@@ -183,6 +184,7 @@ void SceneOptionsPanel::addClip(QFormLayout* form) {
     flip->setToolTip("Cut away what lies behind the plane");
     paths->setToolTip("Cut paths, too; else they go on through what is cut away");
     auto* switches = new QHBoxLayout;
+    switches->setSpacing(Spacing::large);
     switches->addWidget(flip);
     switches->addWidget(paths);
     switches->addStretch(1);

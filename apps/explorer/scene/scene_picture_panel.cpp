@@ -27,6 +27,7 @@ PicturePanel::PicturePanel(SceneView& view, Theme& theme, QWidget* parent) : QWi
     width_->setValue(1920);
     height_->setValue(1080);
     auto* sizes = new QHBoxLayout;
+    sizes->setSpacing(Spacing::small);
     sizes->addWidget(width_, 1);
     sizes->addWidget(new QLabel("×"));
     sizes->addWidget(height_, 1);

@@ -135,7 +135,7 @@ TEST_P(ScenePictures, tour) {
     shots.view.setOptions(options);
     shots.shoot("07_opaque");
     options.surfaceOpacity = 0.25f;
-    options.colors.quantity = "v.segment";
+    options.colors.quantity = "v.depth";
     shots.view.setOptions(options);
     shots.selection.setPaths(some);
     shots.shoot("11_by_value");

@@ -4,6 +4,7 @@
 
 #include "base/path_ids.h"
 #include "base/state_overlay.h"
+#include "base/view_keys.h"
 #include "scene_view_impl.h"
 
 namespace emca::explorer {
@@ -19,11 +20,11 @@ SceneView::Impl::Impl(SceneView& owner, client::Dataset& data, client::Selection
       bar(new ColorBar(look, &owner)), pathBar(new ColorBar(look, &owner)) {
     if (hasOpenGl()) {
         canvas = new SceneCanvas(theme, &view);
-        meshes = std::make_unique<MeshLayer>(canvas->surfaces(), canvas->strokes());
-        glyphs = std::make_unique<GlyphLayer>(canvas->strokes());
-        pathLayer = std::make_unique<PathLayer>(canvas->strokes(), coloring);
+        meshes = std::make_unique<MeshLayer>(canvas->surfaces(), canvas->context());
+        glyphs = std::make_unique<GlyphLayer>(canvas->context());
+        pathLayer = std::make_unique<PathLayer>(canvas->context(), canvas->strokes(), coloring);
         heat = std::make_unique<HeatLayer>(canvas->surfaces());
-        objectLayer = std::make_unique<ObjectLayer>(canvas->surfaces(), canvas->strokes());
+        objectLayer = std::make_unique<ObjectLayer>(canvas->surfaces(), canvas->context());
         input = new SceneInput(*canvas, driver);
         connectInput();
         canvas->lower();
@@ -85,7 +86,14 @@ void SceneView::Impl::connectInput() {
 SceneView::SceneView(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
     : QWidget(parent), impl_(std::make_unique<Impl>(*this, dataset, selection, theme)) {
     setMinimumSize(200, 150);
-    if (impl_->canvas) setFocusProxy(impl_->canvas);
+    if (impl_->canvas) {
+        setFocusProxy(impl_->canvas);
+        setViewKeys(*impl_->canvas, "Scene",
+                    {{"W", "Fly forwards (or ↑; with Shift faster)"}, {"S", "Fly backwards (or ↓)"}, {"A", "Fly left (or ←)"},
+                     {"D", "Fly right (or →)"}, {"E", "Fly up (or page up)"}, {"Q", "Fly down (or page down)"},
+                     {"Home", "Renderer's camera"}, {"Backspace", "Back to the view before"}, {"F", "Focus on the selection"},
+                     {"R", "Select by rectangle"}, {"O", "Parallel projection"}, {"X", "Clipping plane"}, {"P", "Save a picture"}});
+    }
     impl_->loadMeshes();
     impl_->applyOptions();
     impl_->datasetChanged(client::DatasetPart::camera | client::DatasetPart::currentTrace);

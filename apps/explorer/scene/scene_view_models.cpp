@@ -84,10 +84,11 @@ void SceneView::Impl::selectionChanged(std::uint32_t parts, bool fly) {
     if (parts & ~static_cast<std::uint32_t>(Part::hover)) {
         const ShownSelection before = shown;
         shown = resolve();
-        if (pathLayer) pathLayer->setSelection(shown);
+        const bool dimming = pathLayer && pathLayer->setSelection(shown);
         if (fly && options.flyToSelection && shown.path && (shown.path != before.path || shown.vertex != before.vertex))
             showPath(*shown.path, shown.vertex, false);
-        if (canvas && !(shown == before)) canvas->requestStrokes();
+        if (canvas && dimming) canvas->requestContext();
+        else if (canvas && !(shown == before)) canvas->requestStrokes();
         if (shown.path != before.path || shown.vertex != before.vertex) emit view.selectionShown();
     }
     if (parts & Part::hover) {
