@@ -8,8 +8,6 @@ namespace emca::explorer {
 namespace {
 
 constexpr std::size_t kBins = 64, kMostChannels = 4;
-/// Share of the values that lies beyond the histogram's end: one firefly must not flatten the rest.
-constexpr double kBeyond = 0.005;
 
 std::vector<float> valuesOf(const Image& image, analysis::ChannelChoice channel, const client::PixelRegion& region) {
     return region.empty() ? analysis::regionValues(image, channel) : analysis::regionValues(image, channel, region.pixels());
@@ -19,16 +17,21 @@ std::vector<analysis::ChannelStatistics> statisticsOf(const Image& image, const 
     return region.empty() ? analysis::imageStatistics(image) : analysis::imageStatistics(image, region.pixels());
 }
 
-/// From the darkest to nearly the brightest of all channels; linear ranges of what is never negative begin at 0.
+/// At most so many values say where the range ends.
+constexpr std::size_t kPicked = 1u << 16;
+
+/// Of all channels together: one firefly must not flatten the rest. Linear ranges of what is never negative begin at 0.
 analysis::ValueRange rangeOf(const std::vector<std::vector<float>>& series, bool log) {
     analysis::ValueRange all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), log};
     for (const auto& values : series) {
-        if (std::ranges::none_of(values, [log](float v) { return std::isfinite(v) && (!log || v > 0); })) continue;
-        const analysis::ValueRange one = analysis::percentileRange(values, log ? kBeyond : 0, 1 - kBeyond, log);
+        std::vector<double> picked;
+        const std::size_t step = values.size() / kPicked + 1;
+        for (std::size_t i = 0; i < values.size(); i += step) picked.push_back(double(values[i]));
+        if (std::ranges::none_of(picked, [log](double v) { return std::isfinite(v) && (!log || v > 0); })) continue;
+        const analysis::ValueRange one = analysis::robustRange(picked, {.log = log, .includeZero = true}).range;
         all.min = std::min(all.min, one.min);
         all.max = std::max(all.max, one.max);
     }
-    if (!log && all.min > 0) all.min = 0;
     return all.repaired();
 }
 

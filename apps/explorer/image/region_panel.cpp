@@ -24,6 +24,15 @@
 #include "image/region_histogram.h"
 
 namespace emca::explorer {
+
+/// A row of the table: what it says of a channel.
+struct RegionStatistic {
+    const char* name;
+    const char* tip;
+    double (*value)(const analysis::ChannelStatistics&);
+    bool count;      ///< how many: 0 is nothing to say
+};
+
 namespace {
 
 /// Regions up to this many pixels are computed at once: about a millisecond.
@@ -48,13 +57,7 @@ QToolButton* toggle(const QString& text, const QString& tip) {
     return made;
 }
 
-/// A row of the table: what it says of a channel.
-struct Statistic {
-    const char* name;
-    const char* tip;
-    double (*value)(const analysis::ChannelStatistics&);
-    bool count;      ///< how many: 0 is nothing to say
-};
+using Statistic = RegionStatistic;
 constexpr Statistic kStatistics[] = {
     {QT_TRANSLATE_NOOP("emca::explorer::RegionPanel", "mean"), QT_TRANSLATE_NOOP("emca::explorer::RegionPanel", "Mean of the finite values"),
      [](const analysis::ChannelStatistics& c) { return c.summary.mean; }, false},
@@ -74,6 +77,24 @@ constexpr Statistic kStatistics[] = {
     {QT_TRANSLATE_NOOP("emca::explorer::RegionPanel", "negative"), QT_TRANSLATE_NOOP("emca::explorer::RegionPanel", "Negative values"),
      [](const analysis::ChannelStatistics& c) { return double(c.negative); }, true},
 };
+
+/// A line of the table.
+struct Row {
+    const Statistic* statistic;
+    bool ofReference;
+};
+
+/// Counts stand there only where there is something to count.
+std::vector<Row> rowsOf(const RegionNumbers& numbers) {
+    std::vector<Row> rows;
+    for (const Statistic& statistic : kStatistics) {
+        const bool any = std::ranges::any_of(numbers.channels, [&](const RegionChannel& channel) { return statistic.value(channel.image) > 0; });
+        if (statistic.count && !any) continue;
+        rows.push_back({&statistic, false});
+        if (numbers.hasReference && !statistic.count) rows.push_back({&statistic, true});
+    }
+    return rows;
+}
 
 }  // namespace
 
@@ -116,12 +137,14 @@ void RegionPanel::build() {
     table_->setShowGrid(false);
     table_->setFrameShape(QFrame::NoFrame);
     table_->setFont(theme_.numberFont());
-    table_->verticalHeader()->setDefaultSectionSize(Spacing::row - 2);
+    table_->verticalHeader()->setDefaultSectionSize(Spacing::row - 4);
     table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
-    table_->verticalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+    table_->verticalHeader()->hide();
     table_->horizontalHeader()->setHighlightSections(false);
+    table_->horizontalHeader()->setMinimumSectionSize(48);
+    table_->horizontalHeader()->setStyleSheet(QStringLiteral("QHeaderView::section { border: none; }"));
     table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     table_->setContextMenuPolicy(Qt::ActionsContextMenu);
     auto* copyAction = new QAction(tr("Copy table"), table_);
     connect(copyAction, &QAction::triggered, this, &RegionPanel::copy);
@@ -272,55 +295,60 @@ void RegionPanel::fillTable() {
         return;
     }
     overlay_->clear();
-    const ThemeColors& c = theme_.colors();
-    about_->setText(selection_.state().region.empty()
-                        ? tr("%1 pixels. Hold Shift and drag in the image, or press R, to choose some of them.").arg(grouped(numbers_.pixels))
-                        : numbers_.hasReference ? tr("%1 pixels, and below in grey those of “%2”").arg(grouped(numbers_.pixels)).arg(referenceTitle_)
-                                                : tr("%1 pixels, radiance in W/(sr m²)").arg(grouped(numbers_.pixels)));
-    QStringList names, columns;
-    std::vector<std::pair<const Statistic*, bool>> rows;
-    for (const Statistic& statistic : kStatistics) {
-        rows.emplace_back(&statistic, false);
-        names << tr(statistic.name);
-        if (!numbers_.hasReference || statistic.count) continue;
-        rows.emplace_back(&statistic, true);
-        names << tr("reference");
-    }
+    about_->setText(aboutText());
+    table_->clear();
+    const std::vector<Row> rows = rowsOf(numbers_);
+    QStringList columns{QString()};
     for (const RegionChannel& channel : numbers_.channels) columns << (channel.image.channel == "luminance" ? QStringLiteral("Y") : toQString(channel.image.channel));
     table_->setRowCount(static_cast<int>(rows.size()));
     table_->setColumnCount(columns.size());
     table_->setHorizontalHeaderLabels(columns);
-    table_->setVerticalHeaderLabels(names);
-    for (int row = 0; row < table_->rowCount(); ++row) {
-        const auto& [statistic, ofReference] = rows[static_cast<std::size_t>(row)];
-        table_->verticalHeaderItem(row)->setToolTip(tr(statistic->tip));
-        if (ofReference) table_->verticalHeaderItem(row)->setForeground(c.mutedText);
-        for (int column = 0; column < columns.size(); ++column) {
-            const RegionChannel& channel = numbers_.channels[static_cast<std::size_t>(column)];
-            auto* item = new QTableWidgetItem;
-            item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-            if (!ofReference || channel.reference) {
-                const double value = statistic->value(ofReference ? *channel.reference : channel.image);
-                // Of values that are all NaN or infinite there is no mean.
-                const bool none = !statistic->count && (ofReference ? *channel.reference : channel.image).summary.finite == 0;
-                item->setText(none ? QStringLiteral("–") : statistic->count ? grouped(static_cast<std::uint64_t>(value)) : number(value));
-                const bool warn = statistic->count && value > 0;
-                item->setForeground(warn ? c.warning : ofReference || (statistic->count && value == 0) ? c.mutedText : c.text);
-                if (ofReference && !none) {
-                    const double own = statistic->value(channel.image);
-                    if (value != 0) item->setToolTip(tr("The image's %1 is %2 times this").arg(tr(statistic->name), number(own / value)));
-                }
-            }
-            table_->setItem(row, column, item);
-        }
+    for (int column = 0; column < columns.size(); ++column) {
+        table_->horizontalHeaderItem(column)->setTextAlignment(int(Qt::AlignRight | Qt::AlignVCenter));
+        table_->horizontalHeader()->setSectionResizeMode(column, column == 0 ? QHeaderView::ResizeToContents : QHeaderView::Stretch);
     }
-    const int height = table_->horizontalHeader()->sizeHint().height() + table_->rowCount() * table_->verticalHeader()->defaultSectionSize() + 2;
-    table_->setFixedHeight(height);
+    for (int row = 0; row < table_->rowCount(); ++row) fillRow(row, *rows[static_cast<std::size_t>(row)].statistic, rows[static_cast<std::size_t>(row)].ofReference);
+    table_->setFixedHeight(table_->horizontalHeader()->sizeHint().height() + table_->rowCount() * table_->verticalHeader()->defaultSectionSize() + 2);
+}
+
+QString RegionPanel::aboutText() const {
+    QString text = tr("%1 pixels").arg(grouped(numbers_.pixels));
+    const bool faults = std::ranges::any_of(numbers_.channels, [](const RegionChannel& channel) {
+        return std::ranges::any_of(kStatistics, [&](const Statistic& s) { return s.count && s.value(channel.image) > 0; });
+    });
+    if (!faults) text += tr(", none NaN, infinite or negative");
+    if (numbers_.hasReference) text += tr("; grey: %1").arg(referenceTitle_);
+    if (selection_.state().region.empty()) text += tr(". Hold Shift and drag in the image, or press R, to choose some.");
+    return text;
+}
+
+void RegionPanel::fillRow(int row, const RegionStatistic& statistic, bool ofReference) {
+    const ThemeColors& c = theme_.colors();
+    auto* name = new QTableWidgetItem(ofReference ? tr("reference") : tr(statistic.name));
+    name->setToolTip(tr(statistic.tip));
+    name->setFont(theme_.font());
+    name->setForeground(c.mutedText);
+    table_->setItem(row, 0, name);
+    for (std::size_t i = 0; i < numbers_.channels.size(); ++i) {
+        const RegionChannel& channel = numbers_.channels[i];
+        auto* item = new QTableWidgetItem;
+        item->setTextAlignment(int(Qt::AlignRight | Qt::AlignVCenter));
+        table_->setItem(row, static_cast<int>(i) + 1, item);
+        if (ofReference && !channel.reference) continue;
+        const analysis::ChannelStatistics& shown = ofReference ? *channel.reference : channel.image;
+        const double value = statistic.value(shown);
+        // Of values that are all NaN or infinite there is no mean.
+        const bool none = !statistic.count && shown.summary.finite == 0;
+        item->setText(none ? QStringLiteral("–") : statistic.count ? grouped(static_cast<std::uint64_t>(value)) : number(value));
+        item->setForeground(statistic.count && value > 0 ? c.warning : ofReference || statistic.count ? c.mutedText : c.text);
+        if (ofReference && !none && value != 0)
+            item->setToolTip(tr("The image's %1 is %2 times this").arg(tr(statistic.name), number(statistic.value(channel.image) / value)));
+    }
 }
 
 bool RegionPanel::isTraced() const {
     const client::PixelRegion& region = selection_.state().region;
-    if (region.empty() || dataset_.current().empty()) return false;
+    if (region.empty() || dataset_.current().empty() || tracing_.heldBack > 0) return false;
     return std::ranges::all_of(dataset_.current(), [&](const auto& trace) {
         return std::ranges::all_of(trace->pixels, [&](Pixel pixel) { return region.contains(pixel); });
     });
@@ -380,11 +408,9 @@ void RegionPanel::showPaths() {
 
 void RegionPanel::copy() {
     QString text = titleText();
-    for (int column = 0; column < table_->columnCount(); ++column) text += '\t' + table_->horizontalHeaderItem(column)->text();
-    for (int row = 0; row < table_->rowCount(); ++row) {
-        text += '\n' + table_->verticalHeaderItem(row)->text();
-        for (int column = 0; column < table_->columnCount(); ++column) text += '\t' + table_->item(row, column)->text();
-    }
+    for (int column = 1; column < table_->columnCount(); ++column) text += '\t' + table_->horizontalHeaderItem(column)->text();
+    for (int row = 0; row < table_->rowCount(); ++row)
+        for (int column = 0; column < table_->columnCount(); ++column) text += (column == 0 ? '\n' : '\t') + table_->item(row, column)->text();
     QApplication::clipboard()->setText(text + '\n');
 }
 

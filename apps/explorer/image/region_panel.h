@@ -18,6 +18,7 @@ class QToolButton;
 namespace emca::explorer {
 
 class RegionHistogram;
+struct RegionStatistic;
 class StateOverlay;
 class Theme;
 
@@ -68,6 +69,8 @@ class RegionPanel : public QWidget {
     void compute();
     void take(RegionNumbers numbers);
     void fillTable();
+    void fillRow(int row, const RegionStatistic& statistic, bool ofReference);
+    QString aboutText() const;
     void showPaths();
     void tellQuery();
     void copy();

@@ -47,8 +47,8 @@ class RegionPanelTest : public testing::Test {
     QString cell(const QString& row, const QString& column) const {
         QTableWidget& table = const_cast<RegionPanel&>(panel).table();
         for (int r = 0; r < table.rowCount(); ++r)
-            for (int c = 0; c < table.columnCount(); ++c)
-                if (table.verticalHeaderItem(r)->text() == row && table.horizontalHeaderItem(c)->text() == column) return table.item(r, c)->text();
+            for (int c = 1; c < table.columnCount(); ++c)
+                if (table.item(r, 0)->text() == row && table.horizontalHeaderItem(c)->text() == column) return table.item(r, c)->text();
         return "no such cell";
     }
     QPushButton* button(const QString& text) {
@@ -90,7 +90,7 @@ TEST_F(RegionPanelTest, NumbersOfARectangleAreThoseOfItsPixels) {
     EXPECT_EQ(cell("variance", "B"), "0");
     // 2, 3 and 4, each four times: sum of squares 8, by 11.
     EXPECT_EQ(cell("variance", "R"), "0.7273");
-    EXPECT_EQ(cell("NaN", "R"), "0");
+    EXPECT_EQ(cell("NaN", "R"), "no such cell") << "what does not occur takes no room";
 }
 
 TEST_F(RegionPanelTest, ValuesThatAreNoRadianceAreCounted) {
@@ -112,9 +112,9 @@ TEST_F(RegionPanelTest, TheReferenceStandsBeside) {
     selection.setRegion(client::PixelRegion(PixelRect{2, 3, 5, 7}));
     panel.setReference(ramp(20, 10, 2), "twice");
     EXPECT_TRUE(panel.numbers().hasReference);
-    EXPECT_EQ(panel.table().verticalHeaderItem(1)->text(), "reference");
-    EXPECT_EQ(panel.table().item(1, 0)->text(), "6.000");
-    EXPECT_TRUE(panel.table().item(1, 0)->toolTip().contains("0.5000 times"));
+    EXPECT_EQ(panel.table().item(1, 0)->text(), "reference");
+    EXPECT_EQ(panel.table().item(1, 1)->text(), "6.000");
+    EXPECT_TRUE(panel.table().item(1, 1)->toolTip().contains("0.5000 times"));
     EXPECT_TRUE(panel.histogram().describe(3).contains("reference"));
     panel.setReference(ramp(21, 10), "of another size");
     EXPECT_FALSE(panel.numbers().hasReference);
@@ -136,6 +136,15 @@ TEST_F(RegionPanelTest, TheHistogramCountsEveryPixelAndGoesLogarithmic) {
     EXPECT_EQ(counted(), 4096u);
     EXPECT_EQ(panel.numbers().channels[0].histogram.below, 64u) << "0 has no logarithm";
     EXPECT_FALSE(panel.histogram().describe(0).isEmpty());
+}
+
+TEST_F(RegionPanelTest, OneFireflyDoesNotFlattenTheHistogram) {
+    auto image = ramp(8, 8);
+    image->color.setColor({3, 3}, {1e4f, 3, 1});
+    show(image);
+    const analysis::Histogram& h = panel.numbers().channels[0].histogram;
+    EXPECT_LT(h.range.max, 100) << "0 to 7 is what there is";
+    EXPECT_EQ(h.above, 1u);
 }
 
 TEST_F(RegionPanelTest, LargeImagesAreCountedElsewhereAndTheLastQuestionIsAnswered) {
@@ -170,6 +179,7 @@ TEST_F(RegionPanelTest, PathsVerdictAndWhatIsMissingAreSaid) {
     EXPECT_TRUE(panel.warningText().contains("12,345 values did not fit") && panel.warningText().contains("3 of the paths"));
     panel.setTracing({true, false, 3000000});
     EXPECT_TRUE(panel.warningText().contains("3,000,000 paths"));
+    EXPECT_EQ(panel.pathsText(), "");
 }
 
 TEST_F(RegionPanelTest, OnlyMatchesAsksWithTheFilterAndClearGivesUp) {

@@ -15,7 +15,7 @@ namespace emca::explorer {
 namespace {
 
 constexpr double kStill = 6;        // a hand that moves less has clicked
-constexpr double kSmallest = 13;    // a region that is smaller on the screen is framed at this size
+constexpr double kSmallest = 20;    // a region that is smaller on the screen is framed at this size
 
 PixelRect around(Pixel a, Pixel b) {
     return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x) + 1, std::max(a.y, b.y) + 1};
