@@ -75,6 +75,7 @@ void StateOverlay::present(State state, const QString& title, const QString& sen
     sentence_->setText(sentence);
     bar_->setVisible(state == State::busy);
     button_->setText(action);
+    button_->setToolTip(action);
     button_->setVisible(!action.isEmpty());
     place();
     show();

@@ -17,6 +17,7 @@
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/theme.h"
+#include "base/view_keys.h"
 #include "emca/analysis/format.h"
 #include "image/compare_bar.h"
 #include "image/image_actions.h"
@@ -63,6 +64,9 @@ ImageView::ImageView(client::Dataset& dataset, client::Selection& selection, The
     build();
     connectParts();
     setFocusProxy(canvas_);
+    setViewKeys(*canvas_, tr("Image"), {{"+", tr("Zoom in")}, {"-", tr("Zoom out")}, {"1", tr("One pixel per pixel")}, {"0", tr("All of the image")},
+        {"Home", tr("All of the image")}, {"Left", tr("Pixel at the left")}, {"Right", tr("Pixel at the right")}, {"Up", tr("Pixel above")},
+        {"Down", tr("Pixel below")}, {"Space", tr("Held: the left button moves the image")}});
     canvas_->setMarked(selection_.state().pixel);
     showDisplay();
 }

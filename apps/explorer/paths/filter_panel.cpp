@@ -103,6 +103,7 @@ QWidget* FilterPanel::makeRules() {
     add_->setToolTip(tr("Adds a rule; all rules have to hold"));
     add_->setObjectName(QStringLiteral("addRule"));
     examples_->setText(tr("Examples"));
+    examples_->setToolTip(tr("Questions that every renderer can answer"));
     examples_->setPopupMode(QToolButton::InstantPopup);
     top->addWidget(label(tr("All of these hold"), "title"), 1);
     top->addWidget(examples_);
@@ -115,6 +116,7 @@ QWidget* FilterPanel::makeRules() {
     note->addWidget(label(tr("The query was edited by hand: these rules do not apply."), "warning"), 1);
     auto* back = new QPushButton(tr("Back to the rules"));
     back->setObjectName(QStringLiteral("backToRules"));
+    back->setToolTip(tr("Writes the query anew, as the rules say"));
     connect(back, &QPushButton::clicked, this, &FilterPanel::backToRules);
     note->addWidget(back, 0, Qt::AlignTop);
     handNote_->hide();

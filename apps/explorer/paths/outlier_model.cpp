@@ -78,6 +78,11 @@ QVariant OutlierModel::headerData(int section, Qt::Orientation orientation, int 
     if (orientation != Qt::Horizontal) return {};
     if (role == Qt::TextAlignmentRole)
         return int(Qt::AlignVCenter | (section == kPath ? Qt::AlignLeft : Qt::AlignRight));
+    if (role == Qt::ToolTipRole)
+        return section == kPath    ? tr("Sample index; with several pixels, pixel too")
+               : section == kValue ? tr("%1; radiance in W/(sr m²), depth in vertices").arg(quantity_)
+               : tested_           ? tr("Statistic R of the generalized ESD test and the limit that it exceeds, in standard deviations")
+                                   : tr("Distance from the mean in standard deviations σ");
     if (role != Qt::DisplayRole) return {};
     switch (section) {
         case kPath:

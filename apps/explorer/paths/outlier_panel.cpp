@@ -1,12 +1,15 @@
 #include "paths/outlier_panel.h"
 
+#include <QApplication>
 #include <QCheckBox>
+#include <QClipboard>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
+#include <QMenu>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QSpinBox>
@@ -20,6 +23,7 @@
 #include "emca/analysis/format.h"
 #include "paths/outlier_model.h"
 #include "paths/table_delegate.h"
+#include "paths/value_rules.h"
 
 namespace emca::explorer {
 
@@ -32,6 +36,17 @@ constexpr PathQuantity kQuantities[] = {PathQuantity::luminance, PathQuantity::r
                                         PathQuantity::blue, PathQuantity::depth};
 
 QString number(double value) { return toQString(analysis::formatNumber(value)); }
+/// As queries name it.
+const char* queryName(PathQuantity quantity) {
+    switch (quantity) {
+        case PathQuantity::red: return "estimate.r";
+        case PathQuantity::green: return "estimate.g";
+        case PathQuantity::blue: return "estimate.b";
+        case PathQuantity::depth: return "depth";
+        default: return "luminance";
+    }
+}
+
 QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 
 }  // namespace
@@ -124,6 +139,7 @@ void OutlierPanel::build() {
 
 void OutlierPanel::styleTable() {
     table_->setModel(model_);
+    table_->setContextMenuPolicy(Qt::CustomContextMenu);
     enableTableCopy(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -169,6 +185,21 @@ void OutlierPanel::connectControls() {
     });
     connect(select_, &QPushButton::clicked, this, &OutlierPanel::selectFound);
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &OutlierPanel::choose);
+    connect(table_, &QWidget::customContextMenuRequested, this, &OutlierPanel::showMenu);
+}
+
+void OutlierPanel::showMenu(const QPoint& position) {
+    const QModelIndex index = table_->indexAt(position);
+    if (!index.isValid()) return;
+    const OutlierModel::Found found = model_->found()[static_cast<std::size_t>(index.row())];
+    QMenu menu(this);
+    menu.addAction(tr("Select only this path"), this, [this, found] { selection_.setPaths({found.id}); });
+    menu.addAction(tr("Show only this path"), this, [this, found] { emit showOnlyWanted(found.id); });
+    addFilterMenu(menu, rulesForNumber(queryName(options_.quantity), found.value), [this](const query::Rule& rule) { emit filterWanted(rule); });
+    menu.addSeparator();
+    menu.addAction(tr("Copy value"), this, [found] { QApplication::clipboard()->setText(toQString(analysis::formatFull(found.value))); });
+    addTableActions(menu, *table_);
+    menu.exec(table_->viewport()->mapToGlobal(position));
 }
 
 void OutlierPanel::showParameters() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/listeners.h"
+#include "emca/query/rules.h"
 #include "emca/analysis/outliers.h"
 
 class QCheckBox;
@@ -40,6 +41,12 @@ class OutlierPanel : public QWidget {
     QTableView& table() { return *table_; }
     QString summaryText() const;
 
+  signals:
+    /// A person wants the paths for which this holds.
+    void filterWanted(const emca::query::Rule& rule);
+    /// All views shall show this path alone.
+    void showOnlyWanted(const emca::client::PathId& path);
+
   private:
     void build();
     void styleTable();
@@ -49,6 +56,7 @@ class OutlierPanel : public QWidget {
     void detect();
     void reload();
     void follow();  ///< marks in the list what the Selection says
+    void showMenu(const QPoint& position);
     void choose();  ///< rows were chosen in the list
     void updateState();
 

@@ -17,9 +17,11 @@
 #include "base/state_overlay.h"
 #include "base/table_text.h"
 #include "base/theme.h"
+#include "base/view_keys.h"
 #include "paths/path_tree_delegate.h"
 #include "paths/path_tree_model.h"
 #include "paths/path_tree_view.h"
+#include "paths/value_rules.h"
 
 namespace emca::explorer {
 
@@ -86,6 +88,8 @@ PathTree::PathTree(client::Dataset& dataset, client::Selection& selection, Theme
     connect(&theme_, &Theme::themeChanged, this, repaint);
     connect(&theme_, &Theme::toneMapChanged, this, repaint);
     setFocusProxy(view_);
+    setViewKeys(*view_, tr("Paths"), {{"Ctrl+C", tr("Copy the selected paths, or the vertex, as text")}, {"Ctrl+F", tr("Find keys")},
+        {"Esc", tr("Show all keys again, or select nothing")}, {"Up", tr("Row above")}, {"Down", tr("Row below")}});
     reload();
 }
 
@@ -326,6 +330,10 @@ void PathTree::showMenu(const QPoint& position) {
             if (const auto path = findPath(model_->paths(), id)) view_->expandWhole(model_->pathIndex(*path));
         });
         menu.addSeparator();
+        const std::optional<Entry> entry = model_->entryOf(index);
+        const std::optional<Index> vertex = model_->vertexOf(index);
+        addFilterMenu(menu, entry ? rulesFor(model_->paths(), *entry) : vertex ? rulesForVertex(model_->paths(), *vertex) : std::vector<ValueRule>(),
+                      [this](const query::Rule& rule) { emit filterWanted(rule); });
         QAction* copy = menu.addAction(tr("Copy value"), this, [this, index] { copyValue(index); });
         copy->setEnabled(!index.data(PathTreeModel::kFullTextRole).toString().isEmpty());
         menu.addAction(tr("Copy as text"), this, &PathTree::copyAsText, QKeySequence::Copy);

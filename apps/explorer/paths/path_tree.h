@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/listeners.h"
+#include "emca/query/rules.h"
 #include "emca/core/path_set.h"
 
 class QComboBox;
@@ -40,6 +41,10 @@ class PathTree : public QWidget {
     PathTreeModel& model() { return *model_; }
     PathTreeView& view() { return *view_; }
     QString countText() const;
+
+  signals:
+    /// A person wants the paths for which this holds.
+    void filterWanted(const emca::query::Rule& rule);
 
   protected:
     void keyPressEvent(QKeyEvent* event) override;

@@ -292,6 +292,10 @@ Qt::ItemFlags PathTreeModel::flags(const QModelIndex& index) const {
 QVariant PathTreeModel::headerData(int section, Qt::Orientation orientation, int role) const {
     if (orientation != Qt::Horizontal) return {};
     if (role == Qt::TextAlignmentRole) return int(Qt::AlignLeft | Qt::AlignVCenter);
+    if (role == Qt::ToolTipRole)
+        return section == kItem    ? tr("Path, vertex or quantity")
+               : section == kValue ? tr("Radiance in W/(sr m²), positions in scene units, densities per steradian unless the name ends in “_area”")
+                                   : tr("Colours at the image's exposure; a corner marks what clips");
     if (role != Qt::DisplayRole) return {};
     switch (section) {
         case kItem:

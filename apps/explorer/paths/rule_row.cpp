@@ -38,6 +38,9 @@ RuleRow::RuleRow(const PathSet& paths, QWidget* parent)
     quantity_->setPlaceholderText(tr("quantity"));
     quantity_->setToolTip(tr("A name, or an expression such as luminance(v.throughput)"));
     value_->setPlaceholderText(tr("value"));
+    value_->setToolTip(tr("A number in the quantity's unit, an expression such as 20 * mean(luminance), or a text; “one of” takes several with commas"));
+    over_->setToolTip(tr("Of many values of a path: for which of them the rule has to hold"));
+    operator_->setToolTip(tr("How quantity and value compare"));
     remove_->setText(QStringLiteral("×"));
     remove_->setToolTip(tr("Remove this rule"));
     remove_->setFixedSize(Spacing::control, Spacing::control);

@@ -29,6 +29,8 @@ set(EMCA_PATHS_SOURCES
   paths/table_delegate.h
   paths/value_cells.cpp
   paths/value_cells.h
+  paths/value_rules.cpp
+  paths/value_rules.h
   paths/vertex_table.cpp
   paths/vertex_table.h
   paths/vertex_table_delegate.cpp

@@ -13,8 +13,10 @@
 #include "base/table_text.h"
 #include "base/text_line.h"
 #include "base/theme.h"
+#include "base/view_keys.h"
 #include "paths/path_entries.h"
 #include "paths/value_cells.h"
+#include "paths/value_rules.h"
 #include "paths/vertex_table_delegate.h"
 #include "paths/vertex_table_model.h"
 
@@ -78,6 +80,7 @@ VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection,
     connect(&theme, &Theme::themeChanged, this, repaint);
     connect(&theme, &Theme::toneMapChanged, this, repaint);
     setFocusProxy(table_);
+    setViewKeys(*table_, tr("Intersection"), {{"Ctrl+C", tr("Copy the table as text")}});
     reload();
 }
 
@@ -134,6 +137,15 @@ void VertexTable::showMenu(const QPoint& position) {
         const QString full = model_->cell(index.row(), VertexTableModel::Column(index.column())).full;
         menu.addAction(tr("Copy value"), this, [full] { QApplication::clipboard()->setText(full); })
             ->setEnabled(!full.isEmpty());
+    }
+    if (index.isValid()) {
+        // On its name, a quantity means the value of the vertex itself.
+        const auto column = index.column() == VertexTableModel::kQuantity ? VertexTableModel::kThis : VertexTableModel::Column(index.column());
+        const std::optional<Entry> entry = model_->entry(index.row(), column);
+        const std::optional<Index> vertex = model_->vertexOf(column);
+        addFilterMenu(menu, entry ? rulesFor(dataset_.paths(), *entry) : vertex ? rulesForVertex(dataset_.paths(), *vertex) : std::vector<ValueRule>(),
+                      [this](const query::Rule& rule) { emit filterWanted(rule); });
+        menu.addSeparator();
     }
     addTableActions(menu, *table_);
     menu.exec(table_->viewport()->mapToGlobal(position));

@@ -3,6 +3,7 @@
 #include <QWidget>
 
 #include "base/listeners.h"
+#include "emca/query/rules.h"
 
 class QTableView;
 class QToolButton;
@@ -24,6 +25,10 @@ class VertexTable : public QWidget {
     /// To the vertex before or after on the path, if there is one.
     void stepBack();
     void stepForward();
+
+  signals:
+    /// A person wants the paths for which this holds.
+    void filterWanted(const emca::query::Rule& rule);
 
   protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -70,7 +70,10 @@ std::vector<VertexTableModel::Row> VertexTableModel::rowsOf(const PathSet& paths
     for (const auto& [key, entry] : keyed(paths, vertex)) {
         Row row{key.first, {}};
         for (std::size_t c = 0; c < 3; ++c)
-            if (const auto at = there[c].find(key); at != there[c].end()) row.cells[c] = cellOf(paths, at->second, meshes);
+            if (const auto at = there[c].find(key); at != there[c].end()) {
+                row.cells[c] = cellOf(paths, at->second, meshes);
+                row.entries[c] = at->second;
+            }
         rows.push_back(std::move(row));
     }
     return rows;
@@ -106,6 +109,15 @@ const VertexTableModel::Cell& VertexTableModel::cell(int row, Column column) con
     return rows_[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(column - kPrevious)];
 }
 
+std::optional<Entry> VertexTableModel::entry(int row, Column column) const {
+    if (row < 0 || row >= rowCount() || column == kQuantity) return std::nullopt;
+    return rows_[static_cast<std::size_t>(row)].entries[static_cast<std::size_t>(column - kPrevious)];
+}
+
+std::optional<Index> VertexTableModel::vertexOf(Column column) const {
+    return column == kPrevious ? neighbours_[0] : column == kNext ? neighbours_[1] : vertex_;
+}
+
 QVariant VertexTableModel::data(const QModelIndex& index, int role) const {
     if (!index.isValid()) return {};
     if (index.column() == kQuantity) return role == Qt::DisplayRole ? QVariant(quantity(index.row())) : QVariant();
@@ -121,6 +133,11 @@ QVariant VertexTableModel::data(const QModelIndex& index, int role) const {
 QVariant VertexTableModel::headerData(int section, Qt::Orientation orientation, int role) const {
     if (orientation != Qt::Horizontal) return {};
     if (role == Qt::TextAlignmentRole) return int(Qt::AlignLeft | Qt::AlignVCenter);
+    if (role == Qt::ToolTipRole)
+        return section == kQuantity   ? tr("Radiance in W/(sr m²), positions in scene units, densities per steradian unless the name ends in “_area”")
+               : section == kPrevious ? tr("The vertex before on the path")
+               : section == kThis     ? tr("The selected vertex")
+                                      : tr("The next vertex on the path");
     if (role != Qt::DisplayRole) return {};
     if (section == kQuantity) return QStringLiteral("Quantity");
     const QString& title = titles_[static_cast<std::size_t>(section - kPrevious)];

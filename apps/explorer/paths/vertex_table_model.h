@@ -36,6 +36,10 @@ class VertexTableModel : public QAbstractTableModel {
 
     QString quantity(int row) const { return rows_[static_cast<std::size_t>(row)].quantity; }
     const Cell& cell(int row, Column column) const;
+    /// The value that a cell shows; nothing where there is none, and of what happened at the vertex.
+    std::optional<Entry> entry(int row, Column column) const;
+    /// The vertex of a column.
+    std::optional<Index> vertexOf(Column column) const;
 
     int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : int(rows_.size()); }
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumnCount; }
@@ -46,6 +50,7 @@ class VertexTableModel : public QAbstractTableModel {
     struct Row {
         QString quantity;
         std::array<Cell, 3> cells;  ///< previous, this, next
+        std::array<std::optional<Entry>, 3> entries = {};
     };
     std::vector<Row> rowsOf(const PathSet& paths, Index vertex, std::span<const Mesh> meshes, std::array<QString, 3>& titles);
     void show(std::vector<Row> rows, std::array<QString, 3> titles);

@@ -11,6 +11,7 @@ PathPlotRow channel(const QString& name, PathQuantity quantity, ScatterPlot::Col
     PathPlotRow row;
     row.axis = {name, QString::fromUtf8(unit.data(), int(unit.size())), false, true};
     row.color = color;
+    row.query = quantity == PathQuantity::red ? "estimate.r" : quantity == PathQuantity::green ? "estimate.g" : "estimate.b";
     row.series = [quantity](const PathSet& paths) { return analysis::pathSeries(paths, quantity); };
     return row;
 }
@@ -33,6 +34,7 @@ PathPlotRow alpha() {
     PathPlotRow row;
     row.axis = {QStringLiteral("alpha"), {}, false, true};
     row.color = &ThemeColors::alpha;
+    row.query = "alpha";
     row.series = alphaSeries;
     row.optional = true;
     return row;

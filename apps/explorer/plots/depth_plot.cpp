@@ -7,6 +7,7 @@ PathPlotRow depthRow() {
     PathPlotRow row;
     row.axis = {QStringLiteral("path depth"), {}, true, false};
     row.color = &ThemeColors::data;
+    row.query = "depth";
     row.series = [](const PathSet& paths) { return analysis::pathSeries(paths, analysis::PathQuantity::depth); };
     return row;
 }

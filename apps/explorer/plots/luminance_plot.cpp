@@ -10,6 +10,7 @@ PathPlotRow luminanceRow() {
     PathPlotRow row;
     row.axis = {toQString(analysis::label(kQuantity)), toQString(analysis::unit(kQuantity)), false, true};
     row.color = &ThemeColors::luminance;
+    row.query = "luminance";
     row.series = [](const PathSet& paths) { return analysis::pathSeries(paths, kQuantity); };
     return row;
 }

@@ -10,6 +10,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "base/filter_menu.h"
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
@@ -292,6 +293,9 @@ void PathPlot::showMenu(const Row& row, const QPoint& position, std::optional<st
         const PathId id = pathId(dataset_.paths(), row.series.paths[*point]);
         const double value = row.series.values[*point];
         menu.addAction(tr("Select only this path"), this, [this, id] { selection_.setPaths({id}); });
+        menu.addAction(tr("Show only this path"), this, [this, id] { emit showOnlyWanted(id); });
+        if (!row.spec.query.empty())
+            addFilterMenu(menu, rulesForNumber(row.spec.query, value), [this](const query::Rule& rule) { emit filterWanted(rule); });
         menu.addAction(tr("Copy value"), this,
                        [value] { QApplication::clipboard()->setText(toQString(analysis::formatFull(value))); });
         menu.addSeparator();

@@ -3,10 +3,12 @@
 #include <QWidget>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/listeners.h"
 #include "emca/analysis/path_quantities.h"
+#include "emca/query/rules.h"
 #include "plots/plot_export.h"
 #include "plots/scatter_plot.h"
 
@@ -26,6 +28,7 @@ struct PathPlotRow {
     /// Computed by analysis; paths without the quantity are left out.
     std::function<analysis::PathSeries(const PathSet& paths)> series;
     bool optional = false;  ///< hidden while no path has the quantity
+    std::string query;      ///< the quantity as a query names it; empty: none does
 };
 
 /// Base of the plots over paths: rows with a common sample axis, linked with all other views through the Selection.
@@ -51,6 +54,10 @@ class PathPlot : public QWidget {
   signals:
     /// A sentence for the status bar.
     void message(const QString& sentence);
+    /// A person wants the paths for which this holds.
+    void filterWanted(const emca::query::Rule& rule);
+    /// All views shall show this path alone.
+    void showOnlyWanted(const emca::client::PathId& path);
 
   protected:
     PathPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme, std::vector<PathPlotRow> rows,

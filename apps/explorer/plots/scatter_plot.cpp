@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/qt_compat.h"
+#include "base/view_keys.h"
 #include "emca/analysis/format.h"
 #include "plots/marginal_histogram.h"
 #include "plots/mean_label.h"
@@ -87,6 +88,8 @@ ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
     layout->addWidget(mean_);
     layout->addWidget(histogram_);
     setFocusPolicy(Qt::StrongFocus);
+    setViewKeys(*this, tr("Plots"), {{"L", tr("Logarithmic values")}, {"R", tr("Select in a rectangle")}, {"Home", tr("Show everything again")},
+        {"Esc", tr("Give up the rectangle, or select nothing")}});
     setAutoFillBackground(true);
     connect(&theme_, &Theme::themeChanged, this, &ScatterPlot::restyle);
     connect(histogram_, &MarginalHistogram::barClicked, this, &ScatterPlot::areaSelected);

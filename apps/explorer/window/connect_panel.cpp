@@ -21,6 +21,10 @@ ConnectPanel::ConnectPanel(Theme& theme, QWidget* parent)
     setFixedWidth(340);
     address_->setObjectName("address");
     address_->setPlaceholderText(tr("host:port"));
+    address_->setToolTip(tr("Where the renderer listens, such as 127.0.0.1:50013"));
+    token_->setToolTip(tr("The word that the server was started with, if any"));
+    button_->setToolTip(tr("Fetches scene, camera and image (Enter)"));
+    list_->setToolTip(tr("Renderers of before; a click connects"));
     address_->setFont(theme.numberFont());
     token_->setPlaceholderText(tr("only if the server asks for one"));
     token_->setEchoMode(QLineEdit::Password);

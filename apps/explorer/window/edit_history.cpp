@@ -43,9 +43,10 @@ bool goesOn(const std::string& before, const std::string& after) {
 
 /// Only paths of pixels that are no longer looked at went.
 bool isConsequence(const client::Selection::State& a, const client::Selection::State& b) {
-    if (!b.pixel || a.pixel != b.pixel || b.paths.size() >= a.paths.size()) return false;
+    if (a.pixel != b.pixel || a.region != b.region || b.paths.size() >= a.paths.size()) return false;
+    const auto looked = [&](Pixel pixel) { return b.pixel == pixel || b.region.contains(pixel); };
     return std::ranges::includes(a.paths, b.paths) &&
-           std::ranges::all_of(a.paths, [&](const client::PathId& id) { return id.pixel != *b.pixel || std::ranges::binary_search(b.paths, id); });
+           std::ranges::all_of(a.paths, [&](const client::PathId& id) { return !looked(id.pixel) || std::ranges::binary_search(b.paths, id); });
 }
 
 }  // namespace

@@ -120,6 +120,7 @@ void MainWindow::addToolBar() {
     connectButton_ = new QToolButton;
     connectButton_->setObjectName("connectButton");
     connectButton_->setText(tr("Connect…"));
+    connectButton_->setToolTip(tr("Another renderer (Ctrl+K)"));
     connect(connectButton_, &QToolButton::clicked, this, [this] { connectPanel_->openBelow(connectButton_); });
     connectButton_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);

@@ -8,7 +8,9 @@
 #include "image/region_panel.h"
 #include "image/region_tool.h"
 #include "paths/filter_panel.h"
+#include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
+#include "paths/vertex_table.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
@@ -41,6 +43,25 @@ void MainWindow::connectSession() {
     });
     connect(&session_, &SessionController::failed, this, &MainWindow::showFailure);
     connect(views_.filter, &FilterPanel::edited, this, [this] { session_.setFilter(views_.filter->state()); });
+    const auto filterBy = [this](const query::Rule& rule) {
+        showDock("filter");
+        views_.filter->addRule(rule);
+    };
+    const auto showOnly = [this](const client::PathId& path) {
+        selection_.setPaths({path});
+        views_.paths->inspectSelected();
+        SceneOptions options = views_.scene->options();
+        options.paths = PathChoice::selected;
+        views_.scene->setOptions(options);
+    };
+    connect(views_.paths, &PathTree::filterWanted, this, filterBy);
+    connect(views_.vertex, &VertexTable::filterWanted, this, filterBy);
+    connect(views_.outliers, &OutlierPanel::filterWanted, this, filterBy);
+    connect(views_.outliers, &OutlierPanel::showOnlyWanted, this, showOnly);
+    for (const Views::Plot& plot : views_.plots) {
+        connect(plot.widget, &PathPlot::filterWanted, this, filterBy);
+        connect(plot.widget, &PathPlot::showOnlyWanted, this, showOnly);
+    }
     connect(&history_, &EditHistory::changed, this, &MainWindow::updateActions);
     connect(&session_, &SessionController::sessionOpened, this, [this] {
         if (session_.filter()) views_.filter->setState(*session_.filter());

@@ -68,6 +68,7 @@ void NoticeCard::present(Tone tone, const QString& title, const QStringList& lin
     for (Answer& answer : answers) {
         auto* button = new QPushButton(answer.text, row_);
         button->setProperty("primary", answer.primary);
+        button->setToolTip(answer.primary ? tr("%1 (Enter)").arg(answer.text) : answer.text);
         button->setAutoDefault(true);   // Return presses the one that has the focus
         connect(button, &QPushButton::clicked, this, [this, run = std::move(answer.run)] {
             const auto chosen = run;    // clear() ends this button

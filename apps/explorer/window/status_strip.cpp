@@ -78,6 +78,10 @@ StatusStrip::StatusStrip(client::Dataset& dataset, SessionController& session, T
     progress_->setTextVisible(false);
     progress_->setRange(0, 1000);
     cancel_->setText(tr("Cancel"));
+    cancel_->setToolTip(tr("Ends what runs; what has arrived stays"));
+    link_->setToolTip(tr("Renderer, its scene, and whether it is connected"));
+    last_->setToolTip(tr("Time of the last request: in all, and in the renderer"));
+    samples_->setToolTip(tr("Samples per pixel of what the views show"));
     verdict_->setProperty("role", "badge");
     verdict_->setObjectName("verdict");
     link_->setObjectName("link");

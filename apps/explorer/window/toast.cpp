@@ -66,6 +66,7 @@ void Toast::present(const QString& sentence, const QString& action, std::functio
     onAction_ = std::move(onAction);
     label_->setText(sentence);
     button_->setText(action);
+    button_->setToolTip(action);
     button_->setVisible(!action.isEmpty());
     show();
     place();

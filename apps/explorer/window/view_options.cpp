@@ -2,8 +2,10 @@
 
 #include <QHeaderView>
 #include <QSplitter>
+#include <string>
 #include <type_traits>
 
+#include "base/qt_compat.h"
 #include "image/image_view.h"
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
@@ -25,6 +27,11 @@ void eachOption(Options& o, F f) {
     f("backFaces", o.backFaces);
     f("ownColors", o.ownColors);
     f("edges", o.edges);
+    f("fullDetail", o.fullDetail);
+    f("clipAxis", o.clip.axis);
+    f("clipPosition", o.clip.position);
+    f("clipFlip", o.clip.flip);
+    f("clipPaths", o.clip.paths);
     f("paths", o.paths);
     f("nextEvents", o.nextEvents);
     f("wholePath", o.wholePath);
@@ -32,10 +39,15 @@ void eachOption(Options& o, F f) {
     f("outgoing", o.outgoing);
     f("lineWidth", o.lineWidth);
     f("pathOpacity", o.pathOpacity);
+    f("colors", o.colors.quantity);
+    f("colorMap", o.colors.map);
+    f("colorLog", o.colors.log);
     f("arrows", o.arrows);
     f("depthLabels", o.depthLabels);
     f("maximumPaths", o.maximumPaths);
     f("cameraGlyph", o.cameraGlyph);
+    f("lightGlyphs", o.lightGlyphs);
+    f("axes", o.axes);
     f("legend", o.legend);
     f("orthographic", o.orthographic);
     f("depthPeeling", o.depthPeeling);
@@ -47,6 +59,7 @@ void eachOption(Options& o, F f) {
 template <typename T>
 QVariant toVariant(T value) {
     if constexpr (std::is_enum_v<T>) return static_cast<int>(value);
+    else if constexpr (std::is_same_v<T, std::string>) return toQString(value);
     else return QVariant::fromValue(value);
 }
 
@@ -57,6 +70,7 @@ void read(const QVariantMap& from, const QString& name, T& value) {
     if (found == from.end()) return;
     bool ok = true;
     if constexpr (std::is_same_v<T, bool>) value = found->toBool();
+    else if constexpr (std::is_same_v<T, std::string>) value = found->toString().toStdString();
     else if constexpr (std::is_enum_v<T>) {
         const int number = found->toInt(&ok);
         if (ok && number >= 0 && number <= 8) value = static_cast<T>(number);
