@@ -126,7 +126,10 @@ MixturePanel::MixturePanel(PluginContext& context) : context_(context) {
         const auto rows = table_->selectionModel()->selectedRows();
         chooseLobe(rows.isEmpty() ? std::nullopt : std::optional<std::size_t>(rows.front().row()));
     });
-    onDataset_ = context.onDataset([this](std::uint32_t) { follow(); });
+    onDataset_ = context.onDataset([this](std::uint32_t parts) {
+        using emca::client::DatasetPart;
+        if (parts & (DatasetPart::currentTrace | DatasetPart::meshes | DatasetPart::info | DatasetPart::camera)) follow();
+    });
     onSelection_ = context.onSelection([this](std::uint32_t parts) {
         if (parts & emca::client::SelectionPart::vertex) follow();
     });

@@ -78,6 +78,11 @@ ProbeCanvas::ProbeCanvas(explorer::PluginContext& context, QWidget* parent) : QW
     setToolTip(tr("Wheel: zoom. Middle button or Ctrl and drag: pan. Double click or 0: everything.\n"
                   "Click on a mark: go to the vertex at its other end. Click elsewhere: mark a direction, shown in the scene.\n"
                   "F: look at the outgoing direction."));
+    // For the window's list of keys (F1): a title, then keys and what they do.
+    setProperty("viewKeys", QStringList{tr("Light probe"), "U", tr("Render the probe of the selected vertex"), "A", tr("Follow the selection"),
+                                        "F", tr("Look at the outgoing direction"), "0", tr("Show everything"), "+", tr("Closer"), "-", tr("Farther"),
+                                        "E", tr("Brighter by half a stop"), "Shift+E", tr("Darker by half a stop"), "C", tr("False colour"),
+                                        "L", tr("Logarithmic range"), "S", tr("Save")});
 }
 
 void ProbeCanvas::setProbe(std::shared_ptr<const probe::LightProbe> probe) {
@@ -350,6 +355,17 @@ void ProbeCanvas::wheelEvent(QWheelEvent* event) {
 }
 
 void ProbeCanvas::leaveEvent(QEvent*) { setHovered(std::nullopt); }
+
+/// Keys that mean something here are not those of the window while the probe has the focus.
+bool ProbeCanvas::event(QEvent* event) {
+    if (event->type() != QEvent::ShortcutOverride) return QWidget::event(event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const bool plain = !(key->modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier));
+    constexpr int kOwn[] = {Qt::Key_F, Qt::Key_U, Qt::Key_A, Qt::Key_C, Qt::Key_L, Qt::Key_E, Qt::Key_S};
+    const bool own = std::find(std::begin(kOwn), std::end(kOwn), key->key()) != std::end(kOwn) || (key->key() == Qt::Key_Escape && marked_);
+    if (plain && own) event->accept();
+    return QWidget::event(event);
+}
 
 void ProbeCanvas::keyPressEvent(QKeyEvent* event) {
     const QPointF middle(width() / 2.0, height() / 2.0);

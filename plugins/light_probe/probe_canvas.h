@@ -62,6 +62,7 @@ class ProbeCanvas : public QWidget {
     void markedByHand();
 
   protected:
+    bool event(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;

@@ -243,7 +243,7 @@ QWidget* LookControls::falseColorPage() {
     maximum_->setToolTip(tr("Luminance of the last colour, W/(sr m²)"));
     for (QLineEdit* edit : {minimum_, maximum_}) edit->setFixedWidth(76);
     minimum_->setAlignment(Qt::AlignRight);
-    log_ = toggle(tr("Log"), "probeLog", tr("Logarithmic range"));
+    log_ = toggle(tr("Log"), "probeLog", tr("Logarithmic range (L)"));
     automatic_ = new QToolButton;
     automatic_->setText(tr("Fit"));
     automatic_->setToolTip(tr("Range from the probe: 0.5 % to 99.5 % of its pixels, logarithmic up to the brightest"));
@@ -263,6 +263,7 @@ analysis::ColorMapId LookControls::map() const { return static_cast<analysis::Co
 double LookControls::exposure() const { return exposure_->value(); }
 void LookControls::changeExposure(double stops) { exposure_->setValue(exposure_->value() + stops); }
 void LookControls::toggleFalseColor() { falseColor_->toggle(); }
+void LookControls::toggleLog() { log_->toggle(); }
 
 std::optional<analysis::ValueRange> LookControls::typedRange() const {
     bool first = false, second = false;

@@ -72,6 +72,7 @@ class LookControls : public QWidget {
   public slots:
     void changeExposure(double stops);
     void toggleFalseColor();
+    void toggleLog();
 
   signals:
     void viewChanged();

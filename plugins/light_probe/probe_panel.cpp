@@ -33,6 +33,9 @@ analysis::ValueRange automaticRange(const Image& image, bool log) {
     return range.repaired();
 }
 
+/// The same path of another render may be elsewhere.
+bool samePlace(const ProbeVertex& a, const ProbeVertex& b) { return a.id == b.id && a.position == b.position; }
+
 QString wordsOf(DirectionKind kind) {
     switch (kind) {
         case DirectionKind::incoming: return QObject::tr("incoming");
@@ -124,7 +127,7 @@ ProbePanel::ProbePanel(explorer::PluginContext& context) : context_(context) {
     follow();
 }
 
-bool ProbePanel::isStale() const { return probe_ && shown_ && (!selected_.vertex || !(selected_.vertex->id == shown_->id)); }
+bool ProbePanel::isStale() const { return probe_ && shown_ && (!selected_.vertex || !samePlace(*selected_.vertex, *shown_)); }
 
 QString ProbePanel::obstacle() const {
     if (!context_.isConnected()) return tr("Light probes are rendered on request: connect to a renderer.");
@@ -134,7 +137,7 @@ QString ProbePanel::obstacle() const {
 
 void ProbePanel::follow() {
     selected_ = probeVertex(context_.dataset(), context_.selection());
-    if (shown_ && selected_.vertex && selected_.vertex->id == shown_->id && selected_.vertex->position == shown_->position) {
+    if (shown_ && selected_.vertex && samePlace(*selected_.vertex, *shown_)) {
         shown_ = selected_.vertex;   // further paths may have come
         showView();
     }
@@ -194,7 +197,7 @@ void ProbePanel::received(Result<std::vector<std::byte>> reply, const ProbeVerte
     }
     probe_ = std::make_shared<const probe::LightProbe>(std::move(probe).value());
     shown_ = vertex;
-    if (selected_.vertex && selected_.vertex->id == vertex.id) shown_ = selected_.vertex;
+    if (selected_.vertex && samePlace(*selected_.vertex, vertex)) shown_ = selected_.vertex;
     canvas_->setProbe(probe_);
     showView();
     showStyle();
@@ -311,6 +314,7 @@ void ProbePanel::keyPressEvent(QKeyEvent* event) {
     switch (event->key()) {
         case Qt::Key_U: return requestProbe();
         case Qt::Key_C: return look_->toggleFalseColor();
+        case Qt::Key_L: return look_->toggleLog();
         case Qt::Key_S: return save();
         case Qt::Key_E: return look_->changeExposure(event->modifiers() & Qt::ShiftModifier ? -0.5 : 0.5);
         case Qt::Key_A:

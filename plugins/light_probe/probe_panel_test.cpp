@@ -14,6 +14,7 @@
 
 #include "../testing/fake_context.h"
 #include "emca/imageio/imageio.h"
+#include "emca/recorder/recorder.h"
 #include "emca/recorder/recording.h"
 #include "emca/render/image_renderer.h"
 #include "emca/render/light_probe.h"
@@ -269,6 +270,66 @@ TEST_F(LightProbePanel, OrientationTurnsTheNormalUp) {
     ASSERT_TRUE(middle);
     EXPECT_NEAR(middle->x(), panel->canvas().width() / 2.0, 1);
     EXPECT_FALSE(panel->canvas().positionOf(-requests[1].normal));
+}
+
+TEST_F(LightProbePanel, KeysChangeWhatIsShown) {
+    load();
+    context.selected.setVertex(vertex());
+    open();
+    ASSERT_TRUE(waitForProbe());
+    ProbeCanvas& canvas = panel->canvas();
+    const QImage before = canvas.grab().toImage();
+    QTest::keyClick(&canvas, Qt::Key_E);
+    EXPECT_EQ(context.settings["exposure"].toDouble(), 0.5);
+    const QImage brighter = canvas.grab().toImage();
+    EXPECT_NE(brighter, before);
+    QTest::keyClick(&canvas, Qt::Key_E, Qt::ShiftModifier);
+    EXPECT_EQ(context.settings["exposure"].toDouble(), 0);
+    EXPECT_EQ(canvas.grab().toImage(), before);
+    QTest::keyClick(&canvas, Qt::Key_C);
+    EXPECT_TRUE(context.settings["falseColor"].toBool());
+    const QImage logarithmic = canvas.grab().toImage();
+    QTest::keyClick(&canvas, Qt::Key_L);
+    EXPECT_FALSE(context.settings["log"].toBool());
+    EXPECT_NE(canvas.grab().toImage(), logarithmic);
+    // Without focus here F is the window's; with it, it is ours.
+    QKeyEvent wanted(QEvent::ShortcutOverride, Qt::Key_F, Qt::NoModifier), foreign(QEvent::ShortcutOverride, Qt::Key_R, Qt::NoModifier);
+    wanted.ignore(), foreign.ignore();
+    QApplication::sendEvent(&canvas, &wanted);
+    QApplication::sendEvent(&canvas, &foreign);
+    EXPECT_TRUE(wanted.isAccepted());
+    EXPECT_FALSE(foreign.isAccepted());
+}
+
+TEST_F(LightProbePanel, TooManyOtherPathsAreThinnedOut) {
+    const Pixel pixel{1, 1};
+    Recording recording;
+    {
+        const RecordScope scope(recording, pixel);
+        PathRecorder& emca = recorder();
+        for (int i = 0; i < 10000; ++i) {
+            emca.setPathIndex(i);
+            emca.setPathOrigin(Vec3f{0, 0, 1});
+            emca.setDepthIndex(1);
+            emca.setIntersectionPos(Vec3f{});
+            emca.setDepthIndex(2);
+            emca.setIntersectionPos(Vec3f{1, static_cast<float>(i), 1});
+            emca.endPath();
+        }
+    }
+    client::Trace trace;
+    trace.pixels = {pixel};
+    trace.paths = *recording.finish();
+    context.data.addTrace(std::make_shared<const client::Trace>(std::move(trace)));
+    context.selected.setVertex({{pixel, 5000}, 1});
+    const auto found = probeVertex(context.data, context.selected);
+    ASSERT_TRUE(found.vertex);
+    std::size_t others = 0;
+    for (const Direction& direction : found.vertex->directions) others += direction.kind == DirectionKind::other;
+    EXPECT_EQ(others, kMostOthers);
+    EXPECT_EQ(found.vertex->directions.size(), kMostOthers + 2) << "its own outgoing and incoming are there";
+    // The last of them is near the end: they are picked evenly.
+    EXPECT_GT(found.vertex->directions[kMostOthers - 1].end->path.sample, 9900);
 }
 
 TEST_F(LightProbePanel, SavesRadianceAndPicture) {

@@ -96,6 +96,11 @@ VertexAnswer probeVertex(const client::Dataset& dataset, const client::Selection
             if (place && length(*place - *position) <= reach) addOutgoing(paths, other, at, *place, false, found.directions);
         }
     }
+    // Of a pixel's first vertices all are here; as many as a picture can show are enough.
+    if (const std::size_t all = found.directions.size(); all > kMostOthers) {
+        for (std::size_t i = 0; i < kMostOthers; ++i) found.directions[i] = found.directions[i * all / kMostOthers];
+        found.directions.resize(kMostOthers);
+    }
     const IndexRange events = paths.nextEvents(*vertex);
     for (Index i = events.first; i < events.last; ++i) {
         const NextEvent& event = paths.nextEvent(i);

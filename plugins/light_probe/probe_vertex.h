@@ -38,6 +38,8 @@ struct VertexAnswer {
     std::optional<ProbeVertex> vertex;
     QString obstacle;
 };
+/// Directions of other paths, at most; evenly picked if there are more.
+inline constexpr std::size_t kMostOthers = 4096;
 /// Other paths are at this vertex if one of their vertices is nearer than 2 % of the length of the segment that leads here.
 VertexAnswer probeVertex(const client::Dataset& dataset, const client::Selection& selection);
 
