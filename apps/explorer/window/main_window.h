@@ -99,6 +99,7 @@ class MainWindow : public QMainWindow {
     void connectSession();
     void showStates();
     void showBusy();
+    void connectRegion();
     void showFailure(FailedTask task, const QString& sentence);
 
     client::Dataset& dataset_;
@@ -109,7 +110,6 @@ class MainWindow : public QMainWindow {
     Views views_;
     std::map<QString, PanelDock*> docks_;
     std::map<QString, QAction*> actions_;
-    void connectRegion();
     std::vector<std::pair<QWidget*, StateOverlay*>> busy_;
     Toast* toast_ = nullptr;
     FileMenu* files_ = nullptr;

@@ -8,9 +8,9 @@
 #include <QToolButton>
 
 #include "base/theme.h"
+#include "image/image_view.h"
 #include "image/region_panel.h"
 #include "image/region_tool.h"
-#include "image/image_view.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
@@ -72,8 +72,8 @@ void MainWindow::addMenus() {
         if (!on) views_.image->regionTool().setRectangleMode(false);
     });
     rectangle->setCheckable(true);
-    connect(&views_.image->regionTool(), &RegionTool::rectangleModeChanged, rectangle, &QAction::setChecked);
     connect(views_.scene, &SceneView::rectangleModeChanged, rectangle, &QAction::setChecked);
+    connect(&views_.image->regionTool(), &RegionTool::rectangleModeChanged, rectangle, &QAction::setChecked);
     addAction(selection, "clear", tr("Clear"), QKeySequence("Esc"), [this] {
         // One step back at a time: the mode, the vertex, the paths, the region.
         if (action("rectangle")->isChecked()) {
@@ -197,12 +197,12 @@ void MainWindow::toggleLog() {
         views_.image->toggleLog();
         return;
     }
-    for (const Views::Plot& plot : views_.plots)
-        if (!plot.widget->visibleRegion().isEmpty()) plot.widget->setLog(!plot.widget->isLog());
     if (views_.region->isAncestorOf(QApplication::focusWidget())) {
         views_.region->setLog(!views_.region->isLog());
         return;
     }
+    for (const Views::Plot& plot : views_.plots)
+        if (!plot.widget->visibleRegion().isEmpty()) plot.widget->setLog(!plot.widget->isLog());
 }
 
 void MainWindow::focusSelection() {
