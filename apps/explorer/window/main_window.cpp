@@ -16,10 +16,10 @@
 #include "base/state_overlay.h"
 #include "base/theme.h"
 #include "image/image_view.h"
+#include "image/region_panel.h"
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
-#include "image/region_panel.h"
 #include "paths/vertex_table.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
@@ -147,6 +147,7 @@ void MainWindow::addDocks() {
     addDock(tr("Intersection"), "vertex", views_.vertex);
     addDock(tr("Outliers"), "outliers", views_.outliers);
     addDock(tr("Filter"), "filter", views_.filter);
+    addDock(tr("Region"), "region", views_.region);
     addDock(tr("History"), "history", views_.history);
     addDock(tr("Surfaces"), "surfaces", views_.surfaceScroll);
     addDock(tr("3D options"), "sceneOptions", views_.sceneOptions);
@@ -184,7 +185,6 @@ void MainWindow::readSettings() {
     if (const QByteArray geometry = settings_.value("window/geometry").toByteArray(); !geometry.isEmpty()) restoreGeometry(geometry);
     action("renderOnConnect")->setChecked(settings_.value("renderOnConnect", true).toBool());
     views_.filter->setState(readFilter(settings_));
-    addDock(tr("Region"), "region", views_.region);
     history_.clear();
 }
 
