@@ -63,6 +63,14 @@ QPointF ImageCanvas::zoomAnchor() const {
     return underMouse() && rect().contains(cursor) ? QPointF(cursor) : QRectF(rect()).center();
 }
 
+void ImageCanvas::focusOn(const PixelRect& area) {
+    if (area.empty()) return;
+    const double zoom = std::min(width() / (2.0 * (area.x1 - area.x0)), height() / (2.0 * (area.y1 - area.y0)));
+    transform_.zoomTo(std::min(zoom, 2 * kFocusZoom), QRectF(rect()).center());
+    transform_.centre({area.x0 + (area.x1 - area.x0) / 2, area.y0 + (area.y1 - area.y0) / 2});
+    changed();
+}
+
 void ImageCanvas::focusOn(Pixel pixel) {
     if (transform_.zoom() < kFocusZoom) transform_.zoomTo(kFocusZoom, QRectF(rect()).center());
     transform_.centre(pixel);

@@ -29,6 +29,8 @@ class ImageCanvas : public QWidget {
     void zoomBy(double factor);
     /// Brings a pixel to the middle, large enough to tell it from its neighbours.
     void focusOn(Pixel pixel);
+    /// Brings a rectangle to the middle, with as much around it as it is large.
+    void focusOn(const PixelRect& area);
     /// Where the line of ImageMode::split is, as a share of the widget's width.
     double split() const { return split_; }
     void setSplit(double share);

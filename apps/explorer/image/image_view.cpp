@@ -194,6 +194,7 @@ void ImageView::goToNextInvalid() {
 
 void ImageView::focusSelection() {
     if (selection_.state().pixel) canvas_->focusOn(*selection_.state().pixel);
+    else canvas_->focusOn(selection_.state().region.bounds());
 }
 
 void ImageView::toggleLog() { actions_->toggleLog(); }

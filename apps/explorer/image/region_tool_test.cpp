@@ -129,6 +129,18 @@ TEST_F(RegionToolTest, EscapeGivesADragUp) {
     EXPECT_EQ(region(), before);
 }
 
+TEST_F(RegionToolTest, FocusBringsTheRegionToTheMiddle) {
+    for (const PixelRect& rect : {PixelRect{30, 20, 34, 22}, PixelRect{0, 0, 40, 30}}) {
+        selection.setRegion(client::PixelRegion(rect));
+        canvas().zoomTo(1);
+        view.focusSelection();
+        const QRectF box = canvas().transform().toWidget(QRectF(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0));
+        EXPECT_TRUE(QRectF(canvas().rect()).contains(box));
+        EXPECT_LT((box.center() - QRectF(canvas().rect()).center()).manhattanLength(), 2 * canvas().transform().zoom());
+        EXPECT_GT(box.width(), 100);
+    }
+}
+
 TEST_F(RegionToolTest, TheOutlineIsDrawnAroundThePixels) {
     canvas().zoomTo(10);
     selection.setRegion(client::PixelRegion(PixelRect{12, 10, 20, 18}));
