@@ -152,6 +152,8 @@ Result<void> setValue(Options& options, const QString& name, const QString& valu
         options.screenshot = value;
     } else if (name == "--tour") {
         options.tour = value;
+    } else if (name == "--front") {
+        options.front = value.split(',');
     } else if (name == "--plugin") {
         options.plugins << value;
     } else if (name == "--settings") {
@@ -211,6 +213,7 @@ QString usage() {
         "  --tour DIR           save pictures of every view around the most striking path, and index.md, and end\n"
         "  --size WxH           size of the window\n"
         "  --theme dark|light\n"
+        "  --front NAME,NAME    bring these panels to the front, e.g. filter,plugin-intersection-data\n"
         "  --plugin FILE        load this plugin besides those of the folders; may be given several times\n"
         "  --no-plugins         load none, except those given by --plugin\n"
         "  --settings FILE      layout, theme and addresses from this file\n\n"

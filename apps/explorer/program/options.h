@@ -43,6 +43,7 @@ struct Options {
     std::uint32_t samplesPerPixel = 0;   ///< 0: the scene's
     QString settings;                    ///< file in place of the person's settings
     SceneWishes scene;
+    QStringList front;                   ///< docks whose tabs come to the front, by the names of the saved layout
     QStringList plugins;                 ///< files, besides those of the folders
     bool withoutPlugins = false;         ///< not even those of the folders
     bool onlyScene = false;              ///< the screenshot is one of the 3D view alone

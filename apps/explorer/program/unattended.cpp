@@ -75,6 +75,9 @@ void Unattended::start() {
     if (options_.firefly) then([this] { selectSuspect(); });
     if (!options_.tour.isEmpty()) then([this] { tour(); });
     then([this] { applyScene(); });
+    then([this] {
+        for (const QString& name : options_.front) window_.showDock(name);
+    });
     if (!options_.screenshot.isEmpty()) then([this] { screenshot(); });
     timer_.start();
 }
@@ -254,6 +257,8 @@ void Unattended::tour() {
     });
     show("filter", views.filter, "filter", tr("Rules and the query that they stand for"));
     show("history", views.history, "history", tr("The pixels that were traced"));
+    if (PanelDock* data = window_.dock("plugin-intersection-data"))
+        show(data->objectName(), data->widget(), "intersection-data", tr("What the renderer recorded along the path, over its depth"));
     then([this, pixel, suspect = *suspect] {
         std::vector<std::pair<QString, QString>> pictures;
         for (const Picture& picture : pictures_) pictures.emplace_back(picture.file, picture.caption);

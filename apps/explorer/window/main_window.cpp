@@ -8,6 +8,7 @@
 #include <QMimeData>
 #include <QScrollArea>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QTimer>
 #include <QUrl>
 #include <algorithm>
@@ -160,6 +161,11 @@ void MainWindow::updateDockTitles() {
     // Docks report moves before the layout knows their new neighbours.
     QTimer::singleShot(0, this, [this] {
         for (const auto& [name, made] : docks_) made->updateTitle();
+        // Many tools side by side: words of two letters say less than arrows that lead on.
+        for (QTabBar* tabs : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+            tabs->setElideMode(Qt::ElideNone);
+            tabs->setUsesScrollButtons(true);
+        }
     });
 }
 
