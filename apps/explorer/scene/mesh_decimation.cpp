@@ -78,11 +78,11 @@ ShadedTriangles clustered(const ShadedTriangles& full, std::uint32_t cells) {
 
 ShadedTriangles standIn(const ShadedTriangles& full, std::size_t wanted, const std::atomic<bool>* cancel) {
     // Of a surface, the triangles that remain grow with the square of the number of cells.
-    auto cells = static_cast<std::uint32_t>(std::clamp(0.6 * std::sqrt(double(wanted)), 8.0, 4096.0));
+    auto cells = static_cast<std::uint32_t>(std::clamp(0.45 * std::sqrt(double(wanted)), 8.0, 4096.0));
     ShadedTriangles best = clustered(full, cells);
     for (int round = 0; round < 3 && !(cancel && *cancel); ++round) {
         const double ratio = double(wanted) / double(std::max<std::size_t>(best.triangles.size(), 1));
-        if (ratio > 1 / 1.5 && ratio < 2) break;
+        if (ratio > 0.5 && ratio < 2.5) break;
         const auto next = static_cast<std::uint32_t>(std::clamp(double(cells) * std::sqrt(ratio), 4.0, 16384.0));
         if (next == cells) break;
         cells = next;

@@ -15,7 +15,7 @@ namespace emca::explorer {
 /// \param cells  along the longest edge of the box, at most 2^20
 ShadedTriangles clustered(const ShadedTriangles& full, std::uint32_t cells);
 
-/// A stand-in of about `wanted` triangles (between half and one and a half times as many, where clustering can do that).
+/// A stand-in of about `wanted` triangles (between 0.4 and 2 times as many, where clustering can do that).
 /// Any thread. \param cancel  then the result is of no use
 ShadedTriangles standIn(const ShadedTriangles& full, std::size_t wanted, const std::atomic<bool>* cancel = nullptr);
 
