@@ -17,9 +17,9 @@
 namespace emca::explorer {
 namespace {
 
-QString cellText(const QModelIndex& index) {
-    const QVariant full = index.data(kCopyRole);
-    return full.isValid() ? full.toString() : index.data(Qt::DisplayRole).toString();
+QStringList cellsOf(const QVariant& full, const QVariant& shown) {
+    if (!full.isValid()) return {shown.toString()};
+    return full.userType() == QMetaType::QStringList ? full.toStringList() : QStringList{full.toString()};
 }
 
 QString joined(QStringList cells, TableFormat format) {
@@ -49,13 +49,13 @@ class Rows {
 
     QString text() {
         QStringList names;
-        bool named = false;
+        bool named = tree_ || qobject_cast<const QTableView*>(&view_);   // a list has no names but the number of its column
         for (const int column : columns_) {
-            names += model_.headerData(column, Qt::Horizontal).toString();
-            named |= !names.back().isEmpty();
+            const QVariant full = model_.headerData(column, Qt::Horizontal, kCopyRole);
+            named |= full.isValid();
+            names += cellsOf(full, model_.headerData(column, Qt::Horizontal));
         }
-        // A list has no names but the number of its column.
-        if (named && (tree_ || qobject_cast<const QTableView*>(&view_))) text_ += joined(names, format_);
+        if (named) text_ += joined(names, format_);
         append(view_.rootIndex(), 0);
         return std::move(text_);
     }
@@ -67,7 +67,10 @@ class Rows {
             if (tree_ && tree_->isRowHidden(row, parent)) continue;
             if (!only_ || isSelected(row, parent)) {
                 QStringList cells;
-                for (const int column : columns_) cells += cellText(model_.index(row, column, parent));
+                for (const int column : columns_) {
+                    const QModelIndex cell = model_.index(row, column, parent);
+                    cells += cellsOf(cell.data(kCopyRole), cell.data(Qt::DisplayRole));
+                }
                 if (!cells.isEmpty() && level > 0) cells.front().prepend(QString(2 * level, ' '));
                 text_ += joined(cells, format_);
             }

@@ -8,7 +8,8 @@ class QMenu;
 
 namespace emca::explorer {
 
-/// What a cell copies as where that is not what it shows: numbers in full, for models that have them.
+/// What a cell copies as where that is not what it shows: numbers in full, for models that have them. A QStringList is
+/// several cells, for lists whose entries say many things; the header has their names under the same role.
 inline constexpr int kCopyRole = Qt::UserRole + 64;
 
 enum class TableFormat {

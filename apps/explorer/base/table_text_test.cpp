@@ -74,6 +74,24 @@ TEST(TableText, ATreeCopiesWhatIsOpen) {
     EXPECT_EQ(tableText(tree, TableFormat::tabs, false), "Item\tValue\npath 1\t0.5\n  vertex 1\tglass\npath 2\t0.7\n");
 }
 
+/// An entry of a list that says many things.
+class Entries : public QStandardItemModel {
+  public:
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override {
+        return role == kCopyRole ? QVariant(QStringList{"pixel", "paths"}) : QStandardItemModel::headerData(section, orientation, role);
+    }
+};
+
+TEST(TableText, AnEntryMayBeSeveralCells) {
+    Entries model;
+    auto* entry = new QStandardItem("(1, 2)");
+    entry->setData(QStringList{"(1, 2)", "64"}, kCopyRole);
+    model.appendRow(entry);
+    QListView list;
+    list.setModel(&model);
+    EXPECT_EQ(tableText(list, TableFormat::tabs, false), "pixel\tpaths\n(1, 2)\t64\n");
+}
+
 TEST(TableText, AListHasNoLineOfNames) {
     QStandardItemModel model;
     model.appendRow(new QStandardItem("(1, 2)"));

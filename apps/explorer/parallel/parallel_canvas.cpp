@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/theme.h"
+#include "base/view_keys.h"
 
 namespace emca::explorer {
 
@@ -13,6 +14,10 @@ ParallelCanvas::ParallelCanvas(ParallelAxes& axes, Theme& theme, QWidget* parent
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(200, 140);
     setAttribute(Qt::WA_OpaquePaintEvent);
+    setViewKeys(*this, tr("Parallel coordinates"),
+                {{"Left", tr("Axis to the left")}, {"Right", tr("Axis to the right")}, {"Shift+Left", tr("Move the axis to the left")},
+                 {"Shift+Right", tr("Move the axis to the right")}, {"L", tr("Logarithmic axis")}, {"I", tr("Turn the axis upside down")},
+                 {"Del", tr("Remove the axis")}, {"Ins", tr("Add an axis")}, {"Esc", tr("Clear the marks")}, {"Ctrl+C", tr("Copy the values")}});
     connect(&theme_, &Theme::themeChanged, this, [this] {
         forgetPictures();
         update();

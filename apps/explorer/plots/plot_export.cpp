@@ -91,12 +91,12 @@ void addExportActions(QMenu& menu, const PlotExport& plot) {
     for (const Format& format : kFormats)
         save->addAction(QObject::tr(format.action), menu.parentWidget(), [plot, &format] { askForFile(plot, &format); });
     save->addSeparator();
-    save->addAction(QObject::tr("Any format…"), menu.parentWidget(), [plot] { askForExport(plot); }, QKeySequence("Ctrl+Shift+E"));
+    save->addAction(QObject::tr("Any format…"), menu.parentWidget(), [plot] { askForExport(plot); }, QKeySequence("Ctrl+Shift+P"));
 }
 
 bool handleExportKeys(const QKeyEvent& event, const PlotExport& plot) {
     if (event.matches(QKeySequence::Copy)) copyValues(plot);
-    else if (event.key() == Qt::Key_E && event.modifiers() == (Qt::ControlModifier | Qt::ShiftModifier)) askForExport(plot);
+    else if (event.key() == Qt::Key_P && event.modifiers() == (Qt::ControlModifier | Qt::ShiftModifier)) askForExport(plot);
     else return false;
     return true;
 }

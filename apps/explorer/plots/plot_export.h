@@ -17,7 +17,7 @@ Result<void> exportPicture(QWidget& widget, const QString& file, int scale = 2);
 /// Errors: fileUnwritable.
 Result<void> exportText(const QString& text, const QString& file);
 
-/// What every plot offers: pictures, drawings and its data, by menu and by key (Ctrl+Shift+E asks where to, Ctrl+C copies the
+/// What every plot offers: pictures, drawings and its data, by menu and by key (Ctrl+Shift+P asks where to, Ctrl+C copies the
 /// data, in columns that a spreadsheet takes).
 struct PlotExport {
     QWidget* view = nullptr;                   ///< in front of it the dialog appears
@@ -34,7 +34,7 @@ void addExportActions(QMenu& menu, const PlotExport& plot);
 void askForExport(const PlotExport& plot);
 /// Values to the clipboard, with tabs between them.
 void copyValues(const PlotExport& plot);
-/// Ctrl+Shift+E and Ctrl+C. Returns whether it was one of them.
+/// Ctrl+Shift+P and Ctrl+C. Returns whether it was one of them.
 bool handleExportKeys(const QKeyEvent& event, const PlotExport& plot);
 
 }  // namespace emca::explorer

@@ -17,6 +17,7 @@
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
 #include "paths/vertex_table.h"
+#include "parallel/parallel_plot.h"
 #include "plots/path_plot.h"
 #include "program/tour_story.h"
 #include "scene/scene_view.h"
@@ -248,6 +249,7 @@ void Unattended::tour() {
     };
     Views& views = window_.views();
     for (const Views::Plot& plot : views.plots) show(plot.name, plot.widget, plot.name, tr("%1 of every path of the pixel; the selected path is orange").arg(plot.title == tr("RGB") ? tr("Red, green and blue") : plot.title));
+    show("plots-parallel", views.parallel, "parallel-coordinates", tr("Parallel coordinates: an axis for each quantity, a line for each path; the selected path is orange"));
     show("paths", views.paths, "paths", tr("The path as a tree of values"));
     show("vertex", views.vertex, "intersection", tr("Everything that was recorded at the vertex"));
     show("outliers", views.outliers, "outliers", tr("Paths beyond mean + 3 σ"));

@@ -11,6 +11,7 @@
 
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
+#include "base/table_text.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
 #include "emca/analysis/tone_map.h"
@@ -98,6 +99,13 @@ QVariant HistoryModel::data(const QModelIndex& index, int role) const {
     if (!held || held->pixels.empty()) return {};
     const QString& name = entry(index.row()).name;
     if (role == Qt::DisplayRole) return name;
+    if (role == kCopyRole) {
+        const Replay& replay = entry(index.row()).replay;   // of a region: mean and worst verdict
+        return QStringList{name, QString::number(held->samplesPerPixel), QString::number(held->paths.pathCount()),
+                           toQString(analysis::formatFull(replay.replayed.r)), toQString(analysis::formatFull(replay.replayed.g)),
+                           toQString(analysis::formatFull(replay.replayed.b)), toQString(emca::name(replay.verdict)),
+                           toQString(analysis::formatFull(held->renderSeconds))};
+    }
     if (role != Qt::ToolTipRole) return {};
     const QString told = tr("%1: %2 samples per pixel, %3 paths, %4 vertices. The renderer took %5.")
                              .arg(held->pixels.size() == 1 ? tr("Pixel %1").arg(name) : name.left(1).toUpper() + name.mid(1)).arg(held->samplesPerPixel)
@@ -107,6 +115,11 @@ QVariant HistoryModel::data(const QModelIndex& index, int role) const {
     return told + tr(" Only what a filter takes: %1 of %2 paths.").arg(grouped(held->matches->matched), grouped(held->matches->paths));
 }
 
+QVariant HistoryModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (role != kCopyRole) return QAbstractListModel::headerData(section, orientation, role);
+    return QStringList{tr("pixel"), tr("samples per pixel"), tr("paths"), tr("red"), tr("green"), tr("blue"), tr("replay"), tr("seconds")};
+}
+
 HistoryView::HistoryView(client::Dataset& dataset, client::Selection&, Theme& theme, QWidget* parent)
     : QWidget(parent), dataset_(dataset), model_(new HistoryModel(dataset, this)), list_(new QListView), overlay_(nullptr),
       datasetListening_(dataset, [this](std::uint32_t parts) {
@@ -114,6 +127,7 @@ HistoryView::HistoryView(client::Dataset& dataset, client::Selection&, Theme& th
           if (parts & (client::DatasetPart::traces | client::DatasetPart::currentTrace)) follow();
       }) {
     list_->setModel(model_);
+    enableTableCopy(*list_);
     list_->setItemDelegate(new HistoryDelegate(*model_, theme, this));
     list_->setMouseTracking(true);
     list_->setUniformItemSizes(true);
@@ -134,6 +148,8 @@ HistoryView::HistoryView(client::Dataset& dataset, client::Selection&, Theme& th
             emit traceChosen(trace);
             emit traceAgainWanted();
         });
+        menu.addSeparator();
+        addTableActions(menu, *list_);
         menu.exec(list_->viewport()->mapToGlobal(at));
     });
     for (auto signal : {&Theme::themeChanged, &Theme::toneMapChanged})

@@ -21,6 +21,7 @@ class HistoryModel : public QAbstractListModel {
     void reload();
     int rowCount(const QModelIndex& parent = {}) const override;
     QVariant data(const QModelIndex& index, int role) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
     std::shared_ptr<const client::Trace> trace(int row) const;
 
     /// A trace as a row shows it; of a region: its mean and its worst verdict.

@@ -11,7 +11,7 @@ namespace {
 
 QString tr(const char* text) { return QCoreApplication::translate("emca::explorer::LayoutPlan", text); }
 
-const QStringList kPlots{"plots-rgb", "plots-luminance", "plots-depth"};
+const QStringList kPlots{"plots-rgb", "plots-luminance", "plots-depth", "plots-parallel"};
 const QStringList kTools{"outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"};
 
 using Cell = LayoutPlan::Cell;
@@ -33,7 +33,7 @@ LayoutPlan standard() {
 /// From the pixel that is too bright to the vertex that made it: what stands out, beside its plot, path and values.
 LayoutPlan fireflyHunt() {
     LayoutPlan plan{"firefly", tr("Firefly hunt"), tr("Outliers and luminance beside the image; the path, its vertices and values large"), {}, false};
-    plan.columns = {column(0.3, {row(0.5, {cell({"image"})}), row(0.5, {cell({"plots-luminance", "plots-rgb", "plots-depth"})})}),
+    plan.columns = {column(0.3, {row(0.5, {cell({"image"})}), row(0.5, {cell({"plots-luminance", "plots-rgb", "plots-depth", "plots-parallel"})})}),
                     column(0.42, {row(0.5, {cell({"scene"})}), row(0.5, {cell({"paths"})})}),
                     column(0.28, {row(0.5, {withRest({"outliers", "filter", "history", "notes"})}), row(0.5, {cell({"vertex", "plugin-intersection-data"})})})};
     return plan;
@@ -44,7 +44,7 @@ LayoutPlan compare() {
     LayoutPlan plan{"compare", tr("Compare"), tr("The image large, the pixels of before at hand, plots and scene for both of them"), {}, false};
     plan.columns = {column(0.52, {row(1, {cell({"image"})})}),
                     column(0.48, {row(0.5, {withRest({"history", "filter", "outliers"}, 0.4), cell({"scene"}, 0.6)}),
-                                  row(0.5, {cell({"plots-luminance", "plots-rgb", "plots-depth"})})})};
+                                  row(0.5, {cell({"plots-luminance", "plots-rgb", "plots-depth", "plots-parallel"})})})};
     return plan;
 }
 

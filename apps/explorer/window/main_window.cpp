@@ -18,6 +18,7 @@
 #include "base/theme.h"
 #include "image/image_view.h"
 #include "image/region_panel.h"
+#include "parallel/parallel_plot.h"
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
@@ -143,6 +144,7 @@ PanelDock* MainWindow::addPanel(const QString& title, const QString& name, QWidg
 void MainWindow::addDocks() {
     addDock(tr("Image"), "image", views_.image);
     for (const Views::Plot& plot : views_.plots) addDock(plot.title, plot.name, plot.widget);
+    addDock(tr("Parallel"), "plots-parallel", views_.parallel);
     addDock(tr("Scene"), "scene", views_.scene);
     addDock(tr("Paths"), "paths", views_.paths);
     addDock(tr("Intersection"), "vertex", views_.vertex);
@@ -191,6 +193,7 @@ void MainWindow::readSettings() {
     if (const QByteArray geometry = settings_.value("window/geometry").toByteArray(); !geometry.isEmpty()) restoreGeometry(geometry);
     action("renderOnConnect")->setChecked(settings_.value("renderOnConnect", true).toBool());
     views_.filter->setState(readFilter(settings_));
+    views_.parallel->setLayoutText(settings_.value("parallel/axes").toString());
     history_.clear();
 }
 
@@ -200,6 +203,7 @@ void MainWindow::writeSettings() {
     settings_.setValue("window/geometry", saveGeometry());
     layouts_->keep();
     writeFilter(settings_, views_.filter->state());
+    settings_.setValue("parallel/axes", views_.parallel->layoutText());
     settings_.setValue("renderOnConnect", action("renderOnConnect")->isChecked());
 }
 

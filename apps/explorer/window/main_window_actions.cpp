@@ -11,6 +11,7 @@
 #include "image/image_view.h"
 #include "image/region_panel.h"
 #include "image/region_tool.h"
+#include "parallel/parallel_plot.h"
 #include "plots/path_plot.h"
 #include "scene/scene_view.h"
 #include "scene/surface_panel.h"
@@ -19,6 +20,7 @@
 #include "window/layouts.h"
 #include "window/main_window.h"
 #include "window/panel_dock.h"
+#include "window/plot_links.h"
 #include "window/sample_box.h"
 #include "window/selection_steps.h"
 #include "window/shortcut_panel.h"
@@ -92,6 +94,7 @@ void MainWindow::addMenus() {
 
     QMenu* view = menuBar()->addMenu(tr("&View"));
     addAction(view, "log", tr("Logarithmic scale"), QKeySequence("L"), [this] { toggleLog(); });
+    addAction(view, "exportPlot", tr("Export plot…"), QKeySequence("Ctrl+Shift+P"), [this] { exportPlot(views_); });
     QMenu* image = view->addMenu(tr("Image"));
     for (QAction* made : views_.image->actions()) {
         image->addAction(made);
@@ -101,6 +104,7 @@ void MainWindow::addMenus() {
     for (const char* name : {"image", "scene", "paths", "vertex", "outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"})
         if (PanelDock* made = dock(name)) view->addAction(made->toggleViewAction());
     for (const Views::Plot& plot : views_.plots) view->addAction(dock(plot.name)->toggleViewAction());
+    view->addAction(dock("plots-parallel")->toggleViewAction());
     panelsEnd_ = view->addSeparator();
     QMenu* layout = view->addMenu(tr("Layout"));
     layouts_->addTo(*layout);
@@ -201,6 +205,7 @@ void MainWindow::toggleLog() {
         views_.region->setLog(!views_.region->isLog());
         return;
     }
+    if (!views_.parallel->visibleRegion().isEmpty()) views_.parallel->toggleLog();
     for (const Views::Plot& plot : views_.plots)
         if (!plot.widget->visibleRegion().isEmpty()) plot.widget->setLog(!plot.widget->isLog());
 }

@@ -9,6 +9,7 @@
 #include "image/region_tool.h"
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
+#include "parallel/parallel_plot.h"
 #include "paths/path_tree.h"
 #include "paths/vertex_table.h"
 #include "plots/path_plot.h"
@@ -18,6 +19,7 @@
 #include "window/file_menu.h"
 #include "window/history_view.h"
 #include "window/main_window.h"
+#include "window/plot_links.h"
 #include "window/status_strip.h"
 #include "window/toast.h"
 
@@ -85,7 +87,8 @@ void MainWindow::connectSession() {
     connect(views_.scene, &SceneView::connectRequested, this, [this] { connectPanel_->openBelow(connectButton_); });
     connect(views_.surfaces, &SurfacePanel::renderWanted, this, &MainWindow::render);
     connectRegion();
-    std::vector<QWidget*> pathViews{views_.paths, views_.scene};
+    linkPlots(*this, views_, *toast_);
+    std::vector<QWidget*> pathViews{views_.paths, views_.scene, views_.parallel};
     for (const Views::Plot& plot : views_.plots) pathViews.push_back(plot.widget);
     for (QWidget* view : pathViews) busy_.push_back({view, new StateOverlay(theme_, view)});
 }

@@ -25,6 +25,8 @@ set(EMCA_WINDOW_SOURCES
   window/notice_card.h
   window/panel_dock.cpp
   window/panel_dock.h
+  window/plot_links.cpp
+  window/plot_links.h
   window/sample_box.h
   window/selection_steps.cpp
   window/selection_steps.h
@@ -44,6 +46,7 @@ set(EMCA_WINDOW_SOURCES
 set(EMCA_WINDOW_GL_TESTS
   window/edit_history_test.cpp
   window/main_window_test.cpp
+  window/plot_links_test.cpp
   window/region_test.cpp
   window/selection_updates_test.cpp
   window/session_files_test.cpp

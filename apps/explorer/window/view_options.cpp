@@ -11,6 +11,7 @@
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
 #include "paths/vertex_table.h"
+#include "parallel/parallel_plot.h"
 #include "plots/path_plot.h"
 #include "scene/scene_options.h"
 #include "scene/scene_view.h"
@@ -104,6 +105,7 @@ void eachPart(const Views& views, F f) {
 QVariantMap viewOptions(const Views& views) {
     QVariantMap options;
     for (const Views::Plot& plot : views.plots) options[plot.name + "/log"] = plot.widget->isLog();
+    options["parallel/axes"] = views.parallel->layoutText();
     SceneOptions scene = views.scene->options();
     eachOption(scene, [&](const char* name, auto value) { options[QStringLiteral("scene/") + name] = toVariant(value); });
     eachPart(views, [&](const QString& name, auto& part) { options[name] = part.saveState(); });
@@ -116,6 +118,7 @@ void setViewOptions(const Views& views, const QVariantMap& options) {
         read(options, plot.name + "/log", log);
         plot.widget->setLog(log);
     }
+    if (const QString axes = options.value("parallel/axes").toString(); !axes.isEmpty()) views.parallel->setLayoutText(axes);
     SceneOptions scene = views.scene->options();
     eachOption(scene, [&](const char* name, auto& value) { read(options, QStringLiteral("scene/") + name, value); });
     views.scene->setOptions(scene);

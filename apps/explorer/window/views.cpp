@@ -6,6 +6,7 @@
 #include "base/theme.h"
 #include "image/image_view.h"
 #include "image/region_panel.h"
+#include "parallel/parallel_plot.h"
 #include "paths/filter_panel.h"
 #include "paths/outlier_panel.h"
 #include "paths/path_tree.h"
@@ -48,6 +49,7 @@ Views Views::make(client::Dataset& dataset, client::Selection& selection, Theme&
     views.plots = {{QObject::tr("RGB"), "plots-rgb", new ContributionPlot(dataset, selection, theme)},
                    {QObject::tr("Luminance"), "plots-luminance", new LuminancePlot(dataset, selection, theme)},
                    {QObject::tr("Depth"), "plots-depth", new DepthPlot(dataset, selection, theme)}};
+    views.parallel = new ParallelPlot(dataset, selection, theme);
     return views;
 }
 

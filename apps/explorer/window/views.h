@@ -13,6 +13,7 @@ class FilterPanel;
 class HistoryView;
 class ImageView;
 class OutlierPanel;
+class ParallelPlot;
 class PathPlot;
 class PathTree;
 class RegionPanel;
@@ -39,6 +40,7 @@ struct Views {
     FilterPanel* filter = nullptr;
     RegionPanel* region = nullptr;
     std::vector<Plot> plots;
+    ParallelPlot* parallel = nullptr;
 
     static Views make(client::Dataset& dataset, client::Selection& selection, Theme& theme);
 };
