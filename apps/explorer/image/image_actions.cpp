@@ -20,11 +20,11 @@ int stepped(int at, int by, int count) { return ((at + by) % count + count) % co
 
 ImageActions::ImageActions(ImageModel& model, QWidget& view) : QObject(&view), model_(model), view_(view) {
     constexpr bool kEverywhere = true, kHere = false;
-    add("flipReference", tr("Flip between image and reference"), QKeySequence("X"), kEverywhere,
+    add("flipReference", tr("Flip between image and reference"), QKeySequence("X"), kHere,
         [this] { toggleMode(static_cast<int>(ImageMode::reference)); });
-    add("splitReference", tr("Image and reference side by side"), QKeySequence("W"), kEverywhere,
+    add("splitReference", tr("Image and reference side by side"), QKeySequence("W"), kHere,
         [this] { toggleMode(static_cast<int>(ImageMode::split)); });
-    add("difference", tr("Difference from the reference"), QKeySequence("D"), kEverywhere,
+    add("difference", tr("Difference from the reference"), QKeySequence("D"), kHere,
         [this] { toggleMode(static_cast<int>(ImageMode::difference)); });
     add("nextMetric", tr("Next metric"), QKeySequence("M"), kHere, [this] { stepMetric(1); });
     add("previousMetric", tr("Previous metric"), QKeySequence("Shift+M"), kHere, [this] { stepMetric(-1); });

@@ -188,6 +188,26 @@ TEST_F(SessionTest, AnImageOfAnotherSizeIsShownButNotTraced) {
     EXPECT_EQ(renderer.replays, asked);
 }
 
+TEST_F(SessionTest, AReferenceIsReadWithoutTakingTheImagesPlace) {
+    connectAndRender();
+    const auto shown = dataset.currentImage()->image;
+    QTemporaryDir folder;
+    const QString file = folder.filePath("reference.pfm");
+    ASSERT_TRUE(imageio::write(file.toStdString(), Image(24, 16)));
+    std::shared_ptr<const RenderedImage> reference;
+    QObject::connect(&session, &SessionController::referenceOpened, &session, [&](const auto& opened) { reference = opened; });
+    session.openReference(file);
+    ASSERT_TRUE(waitFor([&] { return reference != nullptr; }));
+    EXPECT_EQ(dataset.currentImage()->image, shown);
+    ASSERT_EQ(dataset.images().size(), 2u);
+    EXPECT_EQ(dataset.images()[1].image, reference);
+    EXPECT_EQ(dataset.images()[1].title, "reference.pfm");
+    session.openReference("/nowhere/reference.exr");
+    ASSERT_TRUE(waitFor([&] { return failures.count() == 1; }));
+    EXPECT_EQ(failures[0][0].value<FailedTask>(), FailedTask::openImage);
+    EXPECT_EQ(dataset.images().size(), 2u);
+}
+
 TEST_F(SessionTest, AFileThatIsNoImageIsASentence) {
     session.openImage("/nowhere/image.exr");
     ASSERT_TRUE(waitFor([&] { return failures.count() == 1; }));

@@ -47,6 +47,7 @@ set(EMCA_WINDOW_GL_TESTS
   window/edit_history_test.cpp
   window/main_window_test.cpp
   window/plot_links_test.cpp
+  window/reference_test.cpp
   window/region_test.cpp
   window/selection_updates_test.cpp
   window/session_files_test.cpp
