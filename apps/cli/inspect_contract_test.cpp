@@ -122,6 +122,26 @@ TEST_F(Inspects, StatsOfAPixel) {
     EXPECT_EQ(lines(csv.out), 7u);
 }
 
+TEST_F(Inspects, ValuesOfEachPath) {
+    const std::vector<double> expected = luminances(8);
+    const Json found = json({"pixel", address(), "3", "4", "--spp", "8", "--value", "luminance", "--value", "max(v.depth) + 1", "--value", "pfd", "--json"});
+    ASSERT_EQ(found["rows"].size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Json& row = found["rows"][i];
+        EXPECT_EQ(row["sample"], i);
+        EXPECT_DOUBLE_EQ(row["luminance"].get<double>(), expected[i]);
+        EXPECT_EQ(row["max(v.depth) + 1"], 4);
+        EXPECT_TRUE(row["pfd"].is_null());
+    }
+    EXPECT_EQ(found["missing"], Json({"pfd"}));
+    const Finished csv = run({"pixel", address(), "3", "4", "--spp", "8", "--value", "depth", "--csv"});
+    EXPECT_EQ(csv.out.rfind("sample,depth\n0,3\n1,3\n", 0), 0u) << csv.out;
+    const Finished wrong = run({"pixel", address(), "3", "4", "--value", "max(v.depth"});
+    EXPECT_EQ(wrong.exitCode, Exit::usage);
+    EXPECT_NE(wrong.err.find("^"), std::string::npos) << wrong.err;
+    EXPECT_EQ(run({"pixel", address(), "3", "4", "--csv"}).exitCode, Exit::usage);
+}
+
 TEST_F(Inspects, TablesOfAPixel) {
     std::map<bool, std::pair<double, int>> expected;
     for (const double v : luminances(100)) {
@@ -175,9 +195,9 @@ TEST_F(Inspects, StatsOfAnImage) {
     EXPECT_EQ(part["channels"][1]["max"], 2.0);
     EXPECT_EQ(json({"stats", "a.exr", "--rect", "0,0,4,2", "--json"})["faultyPixels"], 0);
     EXPECT_NE(run({"stats", "a.exr", "--rect", "1,1,4,3"}).out.find("of them 3 x 2 at (1, 1)"), std::string::npos);
-    EXPECT_EQ(run({"stats", "a.exr", "--rect", "1,1,5,3"}).code, 3);
-    EXPECT_EQ(run({"stats", "a.exr", "--rect", "1,1,1,3"}).code, 2);
-    EXPECT_EQ(run({"stats", "127.0.0.1:1", "1", "1", "--rect", "0,0,1,1"}).code, 2);
+    EXPECT_EQ(run({"stats", "a.exr", "--rect", "1,1,5,3"}).exitCode, 3);
+    EXPECT_EQ(run({"stats", "a.exr", "--rect", "1,1,1,3"}).exitCode, 2);
+    EXPECT_EQ(run({"stats", "127.0.0.1:1", "1", "1", "--rect", "0,0,1,1"}).exitCode, 2);
 }
 
 TEST_F(Inspects, DiffByEveryMetric) {
