@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QMainWindow>
+#include <QVariant>
 #include <algorithm>
 
 #include "window/panel_dock.h"
