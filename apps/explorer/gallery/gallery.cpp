@@ -137,7 +137,7 @@ void Gallery::paths(Pixel pixel) {
     dock("outliers");
     dock("paths");
     dock("vertex");
-    alone("parallel", "parallel-coordinates", {1280, 560});
+    alone("plots-parallel", "parallel-coordinates", {1280, 560});
     views_.filter->addRule({"luminance", {}, query::RuleOperator::greater, "20 * mean(luminance)"});
     views_.filter->addRule({"v.lobe", query::Quantifier::any, query::RuleOperator::equal, "glossy"});
     dock("filter");
