@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/qt_compat.h"
+#include "emca/analysis/image_metrics.h"
 #include "emca/client/session.h"
 
 namespace emca::explorer {
@@ -119,7 +120,22 @@ Result<bool> setSceneValue(Options& options, const QString& name, const QString&
     return true;
 }
 
+Result<void> setComparison(Options& options, const QString& value) {
+    QStringList known{"image", "reference", "split"};
+    for (std::size_t m = 0; m < analysis::kImageMetricCount; ++m) known << toQString(analysis::name(static_cast<analysis::ImageMetric>(m)));
+    if (!known.contains(value)) return usageError("--compare is one of " + known.join(", ") + ", not \"" + value + "\".");
+    options.compare = value;
+    return {};
+}
+
 Result<void> setValue(Options& options, const QString& name, const QString& value) {
+    if (name == "--reference") {
+        if (!QFileInfo(value).isFile())
+            return Error{ErrorCode::fileNotFound, ("The reference \"" + value + "\" is not there; check its name.").toStdString()};
+        options.reference = value;
+        return {};
+    }
+    if (name == "--compare") return setComparison(options, value);
     if (name == "--pixel" && value == "firefly") {
         options.firefly = true;
     } else if (name == "--pixel") {
@@ -193,6 +209,8 @@ Result<Options> parseOptions(const QStringList& arguments) {
         return usageError("--tour shows a renderer at work, or a session: give HOST:PORT or a file.");
     if (options.onlyScene && options.screenshot.isEmpty() && !options.help)
         return usageError("--only scene says what --screenshot shows: give its file too.");
+    if (!options.compare.isEmpty() && options.reference.isEmpty() && !options.help)
+        return usageError("--compare says how an image and its --reference are shown: give the reference too.");
     // What shall be shown has to be collected.
     if (options.scene.layers.empty() && !options.scene.showLayer.empty() && options.scene.showLayer != "none")
         options.scene.layers = {options.scene.showLayer};
@@ -206,6 +224,8 @@ QString usage() {
         "  HOST:PORT            connect to a renderer, e.g. 127.0.0.1:50013\n"
         "  SESSION              open what was saved (.emca); needs no renderer\n"
         "  IMAGE                open an EXR, PFM, HDR or PNG file\n"
+        "  --reference FILE     compare the image with this one\n"
+        "  --compare HOW        show image, reference, split, or a metric: error, absolute error, squared error, …\n"
         "  --pixel X,Y          select a pixel; (0,0) is the top left; \"firefly\" finds the most striking one\n"
         "  --region X0,Y0,X1,Y1 select pixels together: columns from X0 to before X1, rows from Y0 to before Y1\n"
         "  --spp N              samples per pixel of the first render\n"

@@ -33,6 +33,8 @@ struct SceneWishes {
 struct Options {
     std::optional<client::Address> address;
     QString image, session;              ///< files to open; empty for none
+    QString reference;                   ///< image file to compare with; empty for none
+    QString compare;                     ///< "image", "reference", "split", or a name of analysis::ImageMetric
     std::optional<Pixel> pixel;
     std::optional<PixelRect> region;     ///< in place of a pixel
     bool firefly = false;                ///< the most striking pixel in place of a given one, and its outlier path

@@ -79,6 +79,19 @@ TEST(Options, LayersAndTheSceneAlone) {
     EXPECT_TRUE(parseOptions({"50013", "--show-layer", "none"})->scene.layers.empty());
 }
 
+TEST(Options, AReferenceAndHowItIsCompared) {
+    QTemporaryDir folder;
+    QFile file(folder.filePath("reference.exr"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    const auto options = parseOptions({"50013", "--reference", file.fileName(), "--compare", "absolute error"});
+    ASSERT_TRUE(options) << options.error().message;
+    EXPECT_EQ(options->reference, file.fileName());
+    EXPECT_EQ(options->compare, "absolute error");
+    EXPECT_EQ(exitCode(parseOptions({"50013", "--reference", "/nowhere/a.exr"}).error()), 3);
+    EXPECT_EQ(exitCode(parseOptions({"50013", "--reference", file.fileName(), "--compare", "beauty"}).error()), 2);
+    EXPECT_EQ(exitCode(parseOptions({"50013", "--compare", "split"}).error()), 2);
+}
+
 TEST(Options, FaultyWishesAreUsageErrors) {
     for (const QStringList& faulty : std::vector<QStringList>{{"--layers", ","}, {"--layer-range", "3"}, {"--layer-range", "3,1"}, {"--layer-range", "a,b"},
                                                               {"--layer-percentiles", "-1,50"}, {"--layer-map", "rainbow"}, {"--opacity", "1.5"},

@@ -70,6 +70,10 @@ void Unattended::start() {
     } else if (options_.address) {
         window_.connectTo(*options_.address);
     }
+    if (!options_.reference.isEmpty()) {
+        then([this] { session_.openReference(options_.reference); });
+        then([this] { showComparison(); });
+    }
     const bool firefly = options_.firefly || !options_.tour.isEmpty();
     if (options_.region) then([this] { selectRegion(); });
     else if (options_.pixel || firefly) then([this] { selectPixel(); });
@@ -81,6 +85,17 @@ void Unattended::start() {
     });
     if (!options_.screenshot.isEmpty()) then([this] { screenshot(); });
     timer_.start();
+}
+
+void Unattended::showComparison() {
+    ImageModel& model = window_.views().image->model();
+    const std::string wanted = options_.compare.toStdString();
+    if (wanted == "reference" || wanted == "split") {
+        model.setMode(wanted == "split" ? ImageMode::split : ImageMode::reference);
+    } else if (const auto metric = analysis::imageMetricByName(wanted)) {
+        model.setMetric(*metric);
+        model.setMode(ImageMode::difference);
+    }
 }
 
 /// The window shrinks to its 3D view, so that the picture is laid out for its size.

@@ -31,6 +31,7 @@ class Unattended : public QObject {
     void end(int code, const QString& sentence = {});
     void selectPixel();
     void selectRegion();
+    void showComparison();
     void selectSuspect();
     void onlyScene();
     void applyScene();
