@@ -3,6 +3,7 @@
 #include <QRunnable>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "emca/analysis/image_channels.h"
 
@@ -209,7 +210,8 @@ void ImagePixels::convertElsewhere() {
             if (generation != generation_) return;
             running_ = 0;
             invalid_ = invalid;
-            picture_ = picture;
+            // Giving back a hundred megabytes takes tens of milliseconds: not in this thread.
+            pool_.start(QRunnable::create([before = std::exchange(picture_, picture)] {}));
             emit pictureChanged();
         }, Qt::QueuedConnection);
     }));
