@@ -61,7 +61,7 @@ void LobePicture::show(const emca::probe::SphereFrame& frame, std::vector<Lobe> 
     for (std::uint32_t y = 0; y < kHeight; ++y)
         for (std::uint32_t x = 0; x < kWidth; ++x) *mixture.at({x, y}) = static_cast<float>(all * density(lobes_, toDouble(map_.direction({x + 0.5, y + 0.5}))));
     const auto values = emca::analysis::scalars(probe ? probe->image : mixture, {});
-    emca::analysis::ValueRange range = emca::analysis::percentileRange(values, 0.01, 1, true);
+    emca::analysis::ValueRange range = emca::analysis::percentileRange(values, 0.01, 0.995, true);
     range.min = std::max(range.min, range.max * 1e-4);
     range = range.repaired();
     above_ = probe ? colored(probe->image, range) : QImage();

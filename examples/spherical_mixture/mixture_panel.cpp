@@ -31,7 +31,7 @@ emca::analysis::Color8 toColor(const QColor& c) {
     return {static_cast<std::uint8_t>(c.red()), static_cast<std::uint8_t>(c.green()), static_cast<std::uint8_t>(c.blue()), 255};
 }
 
-/// The density as a body around the vertex: as far away as the square root of the density, so that a sharp lobe does not
+/// The density as a body around the vertex: as far away as the fourth root of the density, so that a sharp lobe does not
 /// flatten all others.
 TriangleSet bodyOf(const std::vector<Lobe>& lobes, emca::Vec3f centre, float size) {
     constexpr std::uint32_t kColumns = 128, kRows = 64;
@@ -43,7 +43,7 @@ TriangleSet bodyOf(const std::vector<Lobe>& lobes, emca::Vec3f centre, float siz
         for (std::uint32_t x = 0; x < kColumns; ++x) {
             const double theta = 3.14159265358979323846 * y / kRows, phi = 2 * 3.14159265358979323846 * x / kColumns;
             directions.push_back({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-            radii.push_back(std::sqrt(density(lobes, directions.back())));
+            radii.push_back(std::pow(density(lobes, directions.back()), 0.25));
             largest = std::max(largest, radii.back());
         }
     for (std::size_t i = 0; i < directions.size(); ++i) body.positions.push_back(centre + toFloat(directions[i] * (radii[i] / largest)) * size);
@@ -92,6 +92,7 @@ MixturePanel::MixturePanel(PluginContext& context) : context_(context) {
     table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(Spacing::row);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -107,9 +108,10 @@ MixturePanel::MixturePanel(PluginContext& context) : context_(context) {
     layout->setContentsMargins(Spacing::small, Spacing::small, Spacing::small, Spacing::small);
     layout->setSpacing(Spacing::small);
     layout->addLayout(row);
-    layout->addWidget(picture_, 3);
+    layout->addWidget(picture_, 1);
     layout->addWidget(words_);
-    layout->addWidget(table_, 2);
+    layout->addWidget(table_);
+    table_->setFixedHeight(116);
 
     const auto changed = [this] {
         context_.setSetting("auto", automatic_->isChecked());
@@ -223,7 +225,7 @@ void MixturePanel::showLobes() {
 /// Arrows along the means, as long as the lobes are heavy; the body is the density.
 void MixturePanel::showInScene() {
     const auto meshes = context_.dataset().meshes();
-    const float size = meshes && !meshes->empty() ? 0.12f * emca::boundingBox(*meshes).diagonal() : 1.f;
+    const float size = meshes && !meshes->empty() ? 0.07f * emca::boundingBox(*meshes).diagonal() : 1.f;
     const std::vector<Lobe>& lobes = reply_->fit.lobes;
     SceneObject arrows;
     arrows.name = "Mixture: lobes";
@@ -241,7 +243,7 @@ void MixturePanel::showInScene() {
     arrows.onTop = true;
     SceneObject body;
     body.name = "Mixture: density";
-    body.description = "As far from the vertex as the square root of the density in that direction.";
+    body.description = "As far from the vertex as the fourth root of the density in that direction.";
     body.shape = bodyOf(lobes, shown_->position, size);
     body.colors.color = toColor(context_.colors().accent);
     body.opacity = 0.35f;

@@ -306,7 +306,7 @@ DirectionLegend::DirectionLegend(explorer::PluginContext& context, QWidget* pare
         {"outgoing", QT_TR_NOOP("out"), QT_TR_NOOP("Where the path goes on to")},
         {"emitter", QT_TR_NOOP("light"), QT_TR_NOOP("Where the path goes on to: an emitter or the environment")},
         {"visible", QT_TR_NOOP("NEE"), QT_TR_NOOP("Next-event estimation: the light is visible")},
-        {"occluded", QT_TR_NOOP("blocked"), QT_TR_NOOP("Next-event estimation: something is in between")},
+        {"occluded", QT_TR_NOOP("shadow"), QT_TR_NOOP("Next-event estimation: something is in between")},
         {"other", QT_TR_NOOP("others"), QT_TR_NOOP("Where other paths of this pixel go on to that are here too\n(nearer than 2 % of the length of the segment that leads here)")},
     };
     auto* layout = row();
@@ -362,7 +362,7 @@ void DirectionLegend::restyle() {
         buttons_[static_cast<std::size_t>(i)]->setFont(context_.smallFont());
         // Switched on is the rule, so that shows nothing; what is off is dimmed.
         buttons_[static_cast<std::size_t>(i)]->setStyleSheet(
-            QStringLiteral("QToolButton { padding: 2px 3px; color: %1; } QToolButton:checked { background: transparent; border-color: transparent; color: %2; }")
+            QStringLiteral("QToolButton { padding: 2px 1px; color: %1; } QToolButton:checked { background: transparent; border-color: transparent; color: %2; }")
                 .arg(context_.colors().mutedText.name(), context_.colors().text.name()));
     }
 }
