@@ -62,7 +62,7 @@ DataPanel::DataPanel(explorer::PluginContext& context) : context_(context) {
         if (parts & SelectionPart::hover) showHovered();
     });
     look_ = context_.onLook([this] {
-        scroll_->viewport()->setStyleSheet(QStringLiteral("background: %1").arg(context_.colors().ground.name()));
+        restyle();
         showVertex();
     });
     settings_ = context_.onSettings([this] {
@@ -101,7 +101,7 @@ void DataPanel::makeControls() {
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setToolTip(tr("Choose what is plotted; Ctrl and Shift choose several"));
     list_->header()->setStretchLastSection(true);
-    list_->header()->resizeSection(0, 132);
+    list_->header()->resizeSection(0, 124);
     list_->setIconSize(QSize(20, 12));
     connect(list_, &QTreeWidget::itemSelectionChanged, this, &DataPanel::choose);
 
@@ -114,14 +114,15 @@ void DataPanel::makeControls() {
     scroll_->setWidgetResizable(true);
     scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     scroll_->setWidget(column_);
-    scroll_->viewport()->setStyleSheet(QStringLiteral("background: %1").arg(context_.colors().ground.name()));
+    column_->setAutoFillBackground(true);
+    restyle();
 
     splitter_ = new QSplitter;
     splitter_->addWidget(list_);
     splitter_->addWidget(scroll_);
     splitter_->setStretchFactor(0, 0);
     splitter_->setStretchFactor(1, 1);
-    splitter_->setSizes({236, 320});
+    splitter_->setSizes({212, 340});
     splitter_->restoreState(context_.setting("splitter").toByteArray());
     connect(splitter_, &QSplitter::splitterMoved, this, &DataPanel::keepSettings);
     auto* layout = new QVBoxLayout(this);
@@ -129,6 +130,13 @@ void DataPanel::makeControls() {
     layout->setSpacing(0);
     layout->addLayout(bar);
     layout->addWidget(splitter_, 1);
+}
+
+void DataPanel::restyle() {
+    // By palette: a style sheet would reach into the plots.
+    QPalette ground = column_->palette();
+    ground.setColor(QPalette::Window, context_.colors().ground);
+    column_->setPalette(ground);
 }
 
 void DataPanel::keepSettings() {

@@ -37,6 +37,7 @@ class DataPanel : public QWidget {
     };
 
     void makeControls();
+    void restyle();
     void reload();                 ///< another path, or other data
     void fillList();
     void choose();                 ///< the chosen rows became others

@@ -114,6 +114,23 @@ TEST_F(IntersectionDataTest, PicksSelectTheVertexAndSelectedVerticesAreMarked) {
     EXPECT_TRUE(plot.hoverText().contains("depth 2") && plot.hoverText().contains("5")) << plot.hoverText().toStdString();
 }
 
+TEST_F(IntersectionDataTest, PointsAreSeenInTheirColoursBesideTheSelectedOne) {
+    selectPath();
+    choose({"bsdf weight"});
+    selection.setVertex(vertex(1));
+    QCoreApplication::processEvents();
+    ScatterPlot& plot = plots()[0]->plot();
+    const QImage picture = plot.canvas()->grab().toImage();
+    const ScatterContent& content = plot.content();
+    for (const auto& [point, selected] : {std::pair(0u, true), std::pair(3u, false), std::pair(7u, false)}) {
+        const QPointF at = *content.frame.place(content.xs[point], content.ys[point]);
+        const QColor seen = picture.pixelColor((at * picture.devicePixelRatio()).toPoint()), ground = theme.colors().ground;
+        const int distance = std::abs(seen.red() - ground.red()) + std::abs(seen.green() - ground.green()) + std::abs(seen.blue() - ground.blue());
+        EXPECT_GT(distance, 30) << point;
+        EXPECT_EQ(seen == theme.colors().selected, selected) << point;
+    }
+}
+
 TEST_F(IntersectionDataTest, ChosenQuantitiesStayFromPathToPathAndForTheNextStart) {
     selectPath(0);
     choose({"tries", "random"});
