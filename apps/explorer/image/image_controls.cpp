@@ -111,6 +111,7 @@ QWidget* ImageControls::tonePage() {
     exposureValue_->setSingleStep(0.5);
     exposureValue_->setDecimals(1);
     exposureValue_->setSuffix(tr(" EV"));
+    exposureValue_->setToolTip(tr("Exposure in stops: 1 EV is twice as bright"));
     exposureValue_->setAlignment(Qt::AlignRight);
     exposureValue_->setFixedWidth(78);
     exposureValue_->setFont(theme_.numberFont());

@@ -305,6 +305,7 @@ void RegionPanel::fillTable() {
     table_->setHorizontalHeaderLabels(columns);
     for (int column = 0; column < columns.size(); ++column) {
         table_->horizontalHeaderItem(column)->setTextAlignment(int(Qt::AlignRight | Qt::AlignVCenter));
+        table_->horizontalHeaderItem(column)->setToolTip(column == 0 ? tr("What of the region's pixels") : tr("Channel %1, in the image's unit: of renders W/(sr m²)").arg(columns[column]));
         table_->horizontalHeader()->setSectionResizeMode(column, column == 0 ? QHeaderView::ResizeToContents : QHeaderView::Stretch);
     }
     for (int row = 0; row < table_->rowCount(); ++row) fillRow(row, *rows[static_cast<std::size_t>(row)].statistic, rows[static_cast<std::size_t>(row)].ofReference);

@@ -139,6 +139,11 @@ void OutlierPanel::build() {
 
 void OutlierPanel::styleTable() {
     table_->setModel(model_);
+    quantity_->setToolTip(tr("What stands out: radiance in W/(sr m²), or depth in vertices"));
+    deviations_->setToolTip(tr("Paths farther from the mean than so many standard deviations σ"));
+    upperOnly_->setToolTip(tr("Only paths above the mean"));
+    automatic_->setToolTip(tr("Selects what is found whenever another pixel is shown"));
+    select_->setToolTip(tr("Makes these paths the selection of all views"));
     table_->setContextMenuPolicy(Qt::CustomContextMenu);
     enableTableCopy(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);

@@ -31,8 +31,11 @@ std::vector<ValueRule> ofInteger(const std::string& quantity, std::int64_t value
 }
 
 std::vector<ValueRule> ofColor(const std::string& quantity, Color color) {
-    // Computed as the query does it, so that "=" finds the value itself.
-    return rulesForNumber("luminance(" + quantity + ")", double(luminance(color)));
+    // Computed as the query does it, in double and in this order, so that "=" finds the value itself.
+    double sum = 0.2126 * double(color.r);
+    sum += 0.7152 * double(color.g);
+    sum += 0.0722 * double(color.b);
+    return rulesForNumber("luminance(" + quantity + ")", sum);
 }
 
 /// How a query names the data of a column.

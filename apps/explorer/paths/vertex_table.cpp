@@ -44,12 +44,12 @@ VertexTable::VertexTable(client::Dataset& dataset, client::Selection& selection,
     forward_->setText(QStringLiteral("›"));
     forward_->setToolTip(tr("Next vertex on the path ( . )"));
     table_->setModel(model_);
-    enableTableCopy(*table_);
     table_->setItemDelegate(new VertexTableDelegate(theme, this));
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setShowGrid(false);
     table_->setFrameShape(QFrame::NoFrame);
     table_->setContextMenuPolicy(Qt::CustomContextMenu);
+    enableTableCopy(*table_);   // after the policy: else the table gets a second menu
     table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // columns stay where they are, whatever a vertex has
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(Spacing::row);

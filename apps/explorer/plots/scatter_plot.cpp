@@ -88,8 +88,7 @@ ScatterPlot::ScatterPlot(Theme& theme, QWidget* parent)
     layout->addWidget(mean_);
     layout->addWidget(histogram_);
     setFocusPolicy(Qt::StrongFocus);
-    setViewKeys(*this, tr("Plots"), {{"L", tr("Logarithmic values")}, {"R", tr("Select in a rectangle")}, {"Home", tr("Show everything again")},
-        {"Esc", tr("Give up the rectangle, or select nothing")}});
+    setViewKeys(*this, tr("Plots"), {{"L", tr("Logarithmic values")}, {"R", tr("Select in a rectangle")}, {"Home", tr("Show everything again")}});
     setAutoFillBackground(true);
     connect(&theme_, &Theme::themeChanged, this, &ScatterPlot::restyle);
     connect(histogram_, &MarginalHistogram::barClicked, this, &ScatterPlot::areaSelected);

@@ -23,6 +23,7 @@ PicturePanel::PicturePanel(SceneView& view, Theme& theme, QWidget* parent) : QWi
     for (QSpinBox* spin : {width_, height_}) {
         spin->setRange(16, 8192);
         spin->setSuffix(" px");
+        spin->setToolTip(spin == width_ ? "Width of the picture in pixels" : "Height of the picture in pixels");
     }
     width_->setValue(1920);
     height_->setValue(1080);

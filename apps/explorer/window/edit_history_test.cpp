@@ -46,7 +46,7 @@ class EditHistoryTest : public MainWindowTest {
 };
 
 TEST_F(EditHistoryTest, SelectionAndFilterAreOneHistory) {
-    QTest::keyClicks(&filter().field(), "luminance > 1");
+    QTest::keyClicks(&filter().field(), "luminance > 0.4");
     QTest::keyClick(&filter().field(), Qt::Key_Return);
     ASSERT_EQ(selection().paths, (std::vector<client::PathId>{{{7, 5}, 2, 0}}));
     QTest::keyClick(&filter().field(), Qt::Key_A, Qt::ControlModifier);
@@ -54,11 +54,11 @@ TEST_F(EditHistoryTest, SelectionAndFilterAreOneHistory) {
     undo();                                       // the text, as it was before it was replaced
     undo();
     undo();
-    EXPECT_EQ(filter().queryText(), "luminance > 1");
+    EXPECT_EQ(filter().queryText(), "luminance > 0.4");
     EXPECT_EQ(selection().paths.size(), 1u);
     undo();                                       // Return
     EXPECT_TRUE(selection().paths.empty());
-    EXPECT_EQ(filter().queryText(), "luminance > 1");
+    EXPECT_EQ(filter().queryText(), "luminance > 0.4");
     redo();
     EXPECT_EQ(selection().paths.size(), 1u);
     undo();
@@ -80,14 +80,14 @@ TEST_F(EditHistoryTest, RulesComeAndGoWithTheirTexts) {
     QTest::keyClicks(&filter().row(0).quantity(), "luminance");
     filter().row(0).quantity().completer()->popup()->hide();   // the list of names
     filter().row(0).value().setFocus();
-    QTest::keyClicks(&filter().row(0).value(), "1.5");
-    EXPECT_EQ(filter().queryText(), "luminance > 1.5");
+    QTest::keyClicks(&filter().row(0).value(), "0.4");
+    EXPECT_EQ(filter().queryText(), "luminance > 0.4");
     undo();
     EXPECT_EQ(filter().rowCount(), 1u);
     EXPECT_EQ(filter().row(0).value().text(), "");
     EXPECT_EQ(&focus(), &filter().row(0).value()) << "what is undone in a field leaves one in it";
     redo();
-    EXPECT_EQ(filter().queryText(), "luminance > 1.5");
+    EXPECT_EQ(filter().queryText(), "luminance > 0.4");
     undo();
     undo();
     undo();
@@ -95,12 +95,12 @@ TEST_F(EditHistoryTest, RulesComeAndGoWithTheirTexts) {
     redo();
     redo();
     redo();
-    EXPECT_EQ(filter().queryText(), "luminance > 1.5");
+    EXPECT_EQ(filter().queryText(), "luminance > 0.4");
     EXPECT_EQ(filter().countText(), "1 of 4 paths");
 }
 
 TEST_F(EditHistoryTest, ClearIsOneStepAndBringsBackWhatItTook) {
-    filter().addRule({"luminance", {}, query::RuleOperator::greater, "1"});
+    filter().addRule({"luminance", {}, query::RuleOperator::greater, "0.4"});
     filter().setAutomatic(true);
     ASSERT_EQ(selection().paths.size(), 1u);
     const client::SavedFilter before = filter().state();

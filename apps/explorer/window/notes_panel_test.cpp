@@ -91,7 +91,7 @@ TEST_F(NotesPanelTest, FiltersAreKeptInSessionsAndFromRunToRun) {
         ASSERT_TRUE(waitFor([&] { return !program.dataset.paths().empty() && program.window->isSettled(); }));
         FilterPanel& filter = *program.window->views().filter;
         program.window->showDock("filter");
-        filter.addRule({"luminance", {}, query::RuleOperator::greater, "1"});
+        filter.addRule({"luminance", {}, query::RuleOperator::greater, "0.4"});
         filter.addRule({"v.throughput.r", query::Quantifier::last, query::RuleOperator::greaterEqual, "2"});
         filter.field().setFocus();
         filter.field().moveCursor(QTextCursor::End);
@@ -101,7 +101,7 @@ TEST_F(NotesPanelTest, FiltersAreKeptInSessionsAndFromRunToRun) {
         EXPECT_TRUE(saved.byHand);
         save(program, file);
         const auto opened = client::openSession(file.toStdString());
-        ASSERT_TRUE(opened);
+        ASSERT_TRUE(opened) << opened.error().message;
         EXPECT_EQ(opened->session.filter, saved);
         program.window->files().document().save(file);
         ASSERT_TRUE(waitFor([&] { return !program.session.isSavingSession(); }));
@@ -118,7 +118,7 @@ TEST_F(NotesPanelTest, FiltersAreKeptInSessionsAndFromRunToRun) {
         EXPECT_EQ(filter.countText(), "1 of 4 paths");
         EXPECT_EQ(filter.rowCount(), 2u);
         filter.backToRules();
-        EXPECT_TRUE(filter.queryText().startsWith("luminance > 1 and last(")) << filter.queryText().toStdString();
+        EXPECT_TRUE(filter.queryText().startsWith("luminance > 0.4 and last(")) << filter.queryText().toStdString();
     }
 }
 

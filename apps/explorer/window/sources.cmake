@@ -45,6 +45,12 @@ set(EMCA_WINDOW_SOURCES
 )
 set(EMCA_WINDOW_GL_TESTS
   window/edit_history_test.cpp
+  window/filter_menu_test.cpp
+  window/layouts_test.cpp
+  window/notes_panel_test.cpp
+  window/server_loss_test.cpp
+  window/shortcut_panel_test.cpp
+  window/tooltips_test.cpp
   window/main_window_test.cpp
   window/plot_links_test.cpp
   window/reference_test.cpp
