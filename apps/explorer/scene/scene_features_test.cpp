@@ -10,7 +10,7 @@
 
 #include "base/color_bar.h"
 #include "scene_options_panel.h"
-#include "scene_view_fixture.h"
+#include "scene_view_for_tests.h"
 
 // Colours by value, clipping plane, switches of rays, objects of plugins, pictures: real mouse and keys, drawn pictures.
 namespace emca::explorer::testing {

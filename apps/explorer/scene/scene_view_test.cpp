@@ -15,7 +15,7 @@
 #include <set>
 
 #include "scene_options_panel.h"
-#include "scene_view_fixture.h"
+#include "scene_view_for_tests.h"
 
 namespace emca::explorer::testing {
 namespace {

@@ -45,6 +45,6 @@ set(EMCA_SCENE_TESTS scene/camera_driver_test.cpp scene/clip_plane_test.cpp scen
   scene/object_picker_test.cpp scene/path_coloring_test.cpp scene/path_geometry_test.cpp scene/picking_test.cpp
   scene/scene_objects_test.cpp scene/scene_test_data.cpp scene/scene_view_offscreen_test.cpp
   scene/surface_model_test.cpp scene/surface_panel_test.cpp scene/surface_test_data.h scene/view_pose_test.cpp)
-set(EMCA_SCENE_GL_TESTS scene/scene_features_test.cpp scene/scene_pictures_test.cpp scene/scene_surface_test.cpp scene/scene_test_data.cpp scene/scene_view_fixture.h scene/scene_view_test.cpp)
+set(EMCA_SCENE_GL_TESTS scene/scene_features_test.cpp scene/scene_pictures_test.cpp scene/scene_surface_test.cpp scene/scene_test_data.cpp scene/scene_view_for_tests.h scene/scene_view_test.cpp)
 # A program of its own, for bench/: what a click costs. Links emca_explorer_scene.
 set(EMCA_SCENE_BENCH scene/scene_bench.cpp scene/scene_test_data.cpp)
