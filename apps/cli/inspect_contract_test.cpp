@@ -124,7 +124,10 @@ TEST_F(Inspects, StatsOfAPixel) {
 
 TEST_F(Inspects, ValuesOfEachPath) {
     const std::vector<double> expected = luminances(8);
-    const Json found = json({"pixel", address(), "3", "4", "--spp", "8", "--value", "luminance", "--value", "max(v.depth) + 1", "--value", "pfd", "--json"});
+    const Finished values = run({"pixel", address(), "3", "4", "--spp", "8", "--value", "luminance", "--value", "max(v.depth) + 1", "--value",
+                                 "pfd", "--json"});
+    EXPECT_EQ(values.err, "warning: no path has \"pfd\"\n");
+    const Json found = Json::parse(values.out, nullptr, false);
     ASSERT_EQ(found["rows"].size(), 8u);
     for (std::size_t i = 0; i < 8; ++i) {
         const Json& row = found["rows"][i];

@@ -25,7 +25,7 @@ std::string capitalised(std::string sentence) {
 
 /// "a, b and c"; cut where it would become too long to read.
 std::string listed(const std::vector<std::string>& names) {
-    constexpr std::size_t kMost = 12;
+    constexpr std::size_t kMost = 16;
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i == kMost) return text + " and " + std::to_string(names.size() - kMost) + " more";

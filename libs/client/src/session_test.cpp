@@ -118,6 +118,7 @@ TEST_F(SessionFile, ModelsGoToAFileAndBack) {
     EXPECT_NE(back.images[2].image, session.images[2].image) << "others write to a preview while it is saved";
     back.notes = session.notes;
     back.pixelNotes = session.pixelNotes;
+    back.filter = session.filter;  // of the window, as the notes
     // A current path that is not among the selected ones is no state of Selection; the sample obeys its rules.
     EXPECT_EQ(difference(back, session), "");
     show(Session(), dataset, selection);
