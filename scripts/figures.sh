@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Rebuilds Figures 2, 9, 10 and 11 of the EMCA paper from our own scenes, off screen, into docs/pictures/.
+# Rebuilds Figures 2, 9, 10 and 11 of the EMCA paper from our own scenes, off screen, into docs/pictures/, and the pictures
+# of every view in docs/explorer/pictures/. (That of the example plugin comes with the plugin.)
 # EMCA_BUILD_DIR: a build (default: build/release).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${EMCA_BUILD_DIR:-build/release}
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
-cmake --build "$build" --target emca-render emca-explorer -j "$(nproc)"
+cmake --build "$build" --target emca-render emca-explorer explorer_gallery emca-plugin-probe intersection-data light-probe -j "$(nproc)"
 mkdir -p docs/pictures
 . scripts/serve.sh
 settings=$serve_log.settings
@@ -38,3 +39,7 @@ picture figure-10-image-contribution "image contribution" "${aside[@]}"
 serve door-ajar
 picture figure-11-intersections "intersection density" --spp 64 --paths 0 --layer-log
 picture figure-11-from-above "intersection density" --spp 64 --paths 0 --layer-log --eye -4.5,9.5,-7 --target 0.2,0.6,0.4 --fov 45
+
+serve firefly
+mkdir -p docs/explorer/pictures
+LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1920x1080x24" "$build/bin/explorer_gallery" "$address" docs/explorer/pictures 146,97

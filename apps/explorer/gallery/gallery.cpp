@@ -61,13 +61,11 @@ class Gallery {
         PanelDock* dock = window_.dock(name);
         if (dock == nullptr) return save(picture, nullptr);
         window_.showDock(name);
-        const QSize before = dock->size();
-        const bool floating = dock->isFloating();
         dock->setFloating(true);
         dock->resize(size);
         save(picture, dock);
-        dock->setFloating(floating);
-        dock->resize(before);
+        dock->setFloating(false);
+        settle();
     }
     void selectSuspect() {
         const auto suspect = findSuspect(dataset_.paths());
@@ -86,7 +84,7 @@ class Gallery {
     void habits(Pixel pixel);
 
   private:
-    QWidget* pluginDock(const QString& title) {
+    PanelDock* pluginDock(const QString& title) {
         for (const auto& [name, dock] : window_.docks())
             if (dock->windowTitle().compare(title, Qt::CaseInsensitive) == 0) {
                 window_.showDock(name);
@@ -142,7 +140,6 @@ void Gallery::paths(Pixel pixel) {
     views_.filter->addRule({"v.lobe", query::Quantifier::any, query::RuleOperator::equal, "glossy"});
     dock("filter");
     views_.filter->clear();
-    dock("history");
     settle();
 }
 
@@ -159,12 +156,12 @@ void Gallery::scene() {
     save("scene-values", views_.scene);
     views_.scene->setOptions(before);
     selectSuspect();
-    dock("sceneOptions", "scene-options");
 }
 
 void Gallery::plugins() {
     selectSuspect();
-    save("intersection-data", pluginDock("Intersection data"));
+    if (const PanelDock* data = pluginDock("Intersection data")) alone(data->objectName(), "intersection-data", {900, 520});
+    else save("intersection-data", nullptr);
     if (QWidget* probe = pluginDock("Light probe")) {
         for (QPushButton* button : probe->findChildren<QPushButton*>())
             if (button->text().contains("Render") && button->isEnabled()) button->click();
@@ -181,7 +178,6 @@ void Gallery::regions(Pixel pixel) {
     window_.showDock("region");
     views_.image->canvas().focusOn(pixel);
     save("regions", &window_);
-    dock("region");
     selection_.setPixel(pixel);
     views_.image->canvas().fit();
     settle();
