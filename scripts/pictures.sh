@@ -9,6 +9,9 @@ cp demo-output/01-window.png docs/pictures/window-light.png
 scripts/demo.sh --off-screen --theme dark
 for picture in demo-output/[0-9][0-9]-*.png; do
   name=$(basename "$picture")
-  [ "$name" != 11-history.png ] || continue  # on no page
-  cp "$picture" "docs/pictures/${name#[0-9][0-9]-}"
+  name=${name#[0-9][0-9]-}
+  case "$name" in
+    history.png | intersection-data.png | parallel-coordinates.png) continue ;;  # on no page, or made by figures.sh
+  esac
+  cp "$picture" "docs/pictures/$name"
 done
