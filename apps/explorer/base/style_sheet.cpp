@@ -39,6 +39,11 @@ QTabBar { background: {panel}; }
 QTabBar::tab { background: transparent; color: {mutedText}; padding: 6px 10px; border: none; border-bottom: 2px solid transparent; }
 QTabBar::tab:hover { color: {text}; }
 QTabBar::tab:selected { color: {text}; border-bottom: 2px solid {accent}; }
+QTabBar::scroller { width: 48px; }
+QTabBar QToolButton { background: {panel}; border: none; border-radius: 0; padding: 0; }
+QTabBar QToolButton:hover { background: {hoverSurface}; }
+QTabBar QToolButton::left-arrow { image: url(:/emca/symbols/arrow-left.svg); width: 10px; height: 10px; }
+QTabBar QToolButton::right-arrow { image: url(:/emca/symbols/arrow-right.svg); width: 10px; height: 10px; }
 
 QPushButton { background: {raised}; border: 1px solid {border}; border-radius: 4px; padding: 4px 12px; min-height: 16px; }
 QPushButton:hover { background: {hoverSurface}; }
