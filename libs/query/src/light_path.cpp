@@ -296,6 +296,21 @@ char LightPathExpression::symbol(Event event, Lobe lobe, std::size_t labelClass)
     }
 }
 
+LightPathExpression::Ways LightPathExpression::takeWays() const {
+    const std::lock_guard lock(waysMutex_);
+    if (ways_.empty()) return {};
+    Ways ways = std::move(ways_.back());
+    ways_.pop_back();
+    return ways;
+}
+
+void LightPathExpression::giveBack(Ways ways) const {
+    constexpr std::size_t kMostKept = 64, kMostEntries = 1 << 18;  // as many as threads; 1 MiB
+    if (ways.next.size() > kMostEntries) return;
+    const std::lock_guard lock(waysMutex_);
+    if (ways_.size() < kMostKept) ways_.push_back(std::move(ways));
+}
+
 bool LightPathExpression::matches(std::string_view path) const {
     return re2::RE2::FullMatch(re2::StringPiece(path.data(), path.size()), *expression_);
 }

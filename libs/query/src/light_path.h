@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emca/core/path_set.h"
@@ -48,8 +50,22 @@ class LightPathExpression {
     static constexpr char kCamera = 1, kLight = 2, kSurface = 3, kEnvironment = 4;
     static constexpr std::size_t kMaximumLabels = 15, kMaximumLength = 4096;
 
+    /// Ways that begin alike share their nodes; a node knows for each end whether the way to it matches.
+    struct Ways {
+        struct Node { std::array<std::uint8_t, 3> matches{kUnknown, kUnknown, kUnknown}; };
+        std::vector<Node> nodes;
+        std::vector<std::uint32_t> next;  ///< per node and symbol: the node after it; 0 if not seen yet
+    };
+    /// What was found out about ways on earlier sets, to go on with: an image is evaluated set by set, and most ways occur
+    /// in each. Empty if there is none left. From any thread.
+    Ways takeWays() const;
+    /// Kept for the next one, unless it grew large.
+    void giveBack(Ways ways) const;
+
   private:
     LightPathExpression() = default;
+    mutable std::mutex waysMutex_;  // taken twice per set
+    mutable std::vector<Ways> ways_;
     std::unique_ptr<re2::RE2> expression_;
     std::vector<std::string> labels_;
 };
@@ -58,6 +74,8 @@ class LightPathExpression {
 class LightPathMatcher {
   public:
     LightPathMatcher(const LightPathExpression& expression, const PathSet& paths);
+    ~LightPathMatcher() { expression_.giveBack({std::move(nodes_), std::move(next_)}); }
+    LightPathMatcher(const LightPathMatcher&) = delete;
     /// True if any contribution's way from the camera and its end match; where the set has no contributions, the walk.
     Truth matches(Index path);
 
@@ -65,8 +83,7 @@ class LightPathMatcher {
     static constexpr std::size_t kMaximumWay = 4096;
 
   private:
-    /// Ways that begin alike share their nodes; a node knows for each end whether the way to it matches.
-    struct Node { std::array<std::uint8_t, 3> matches{kUnknown, kUnknown, kUnknown}; };
+    using Node = LightPathExpression::Ways::Node;
     static constexpr std::size_t kMaximumEntries = 1 << 22;
 
     Truth contributionsMatch(Index path);
@@ -93,12 +110,13 @@ class LightPathMatcher {
     std::string walk_;                        ///< of the path at hand: a symbol per vertex, in order from the camera
     std::vector<Index> vertices_;             ///< the vertex of each symbol
     bool fromLight_ = false;                  ///< a light path: no vertex is on the camera's subpath
+    std::size_t unrecorded_ = 0;              ///< place of the first symbol that was not recorded
     std::size_t recorded_ = 0;                ///< how many symbols come before the first that was not recorded
     std::vector<std::uint32_t> reached_;      ///< the node of each prefix of the walk that was asked for
     std::string text_;
     std::vector<Node> nodes_;
     std::size_t width_;                       ///< how many symbols there are
-    std::vector<std::uint32_t> next_;         ///< per node and symbol: the node after it; 0 if not seen yet
+    std::vector<std::uint32_t> next_;         ///< with nodes_: LightPathExpression::Ways
 };
 
 }  // namespace emca::query::detail

@@ -23,7 +23,10 @@ LightPathMatcher::LightPathMatcher(const LightPathExpression& expression, const 
                 const auto l = static_cast<Lobe>(lobe);
                 symbols_[symbolPlace(e, l, label)] = expression.symbol(e, l, label);
             }
-    forget();
+    LightPathExpression::Ways ways = expression.takeWays();
+    nodes_ = std::move(ways.nodes);
+    next_ = std::move(ways.next);
+    if (nodes_.empty()) forget();
 }
 
 std::size_t LightPathMatcher::symbolPlace(Event event, Lobe lobe, std::size_t label) const {
@@ -57,7 +60,9 @@ bool LightPathMatcher::enter(Index v, std::size_t place) {
     vertices_[place] = v;
     const bool labelled = !labelClasses_.empty() && !c.labels.empty() && c.labels[v] < labelClasses_.size();
     const std::size_t label = labelled ? labelClasses_[c.labels[v]] : 0;
-    walk_[place] = symbols_[symbolPlace(event, static_cast<Lobe>(c.lobes.empty() ? 0 : c.lobes[v]), label)];
+    const char symbol = symbols_[symbolPlace(event, static_cast<Lobe>(c.lobes.empty() ? 0 : c.lobes[v]), label)];
+    if (symbol == '\0') unrecorded_ = std::min(unrecorded_, place);
+    walk_[place] = symbol;
     return true;
 }
 
@@ -66,6 +71,7 @@ void LightPathMatcher::readWalk(Index path) {
     vertices_.resize(range.size());
     walk_.resize(range.size());
     std::size_t kept = 0;
+    unrecorded_ = walk_.size();
     fromLight_ = true;
     for (Index v = range.first; v < range.last; ++v)
         if (paths_.subpath(v) == Subpath::camera) {
@@ -76,7 +82,7 @@ void LightPathMatcher::readWalk(Index path) {
         for (Index v = range.last; v-- > range.first;) kept += enter(v, kept);
     vertices_.resize(kept);
     walk_.resize(kept);
-    recorded_ = std::min(walk_.find('\0'), walk_.size());
+    recorded_ = std::min(unrecorded_, kept);
     reached_.assign(1, 0);
     if (next_.size() > kMaximumEntries) forget();
 }
