@@ -1,6 +1,7 @@
 #include "emca/recorder/cursor.h"
 
 #include <cstring>
+#include <new>
 
 #include "cursor_impl.h"
 
@@ -58,14 +59,13 @@ void Cursor::setPathIndex(std::int64_t sample, std::int32_t part) {
     PathRow* place = c.paths_.append(c.pool_);
     c.starved_ = !place;
     if (!place) return void(++c.stats_.droppedByBudget);
-    PathRow row;
+    PathRow& row = *new (place) PathRow;
     row.pixel = c.pixel_;
     row.hasPixel = c.hasPixel_;
     row.byHandle = c.byHandle_;
     row.sample = sample;
     row.part = part;
     row.begin = c.logEnd();
-    *place = row;
     c.path_ = path;
     c.inPath_ = true;
     c.visited_.clear();
