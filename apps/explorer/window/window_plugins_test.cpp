@@ -7,9 +7,14 @@
 #include <QMenu>
 #include <QPushButton>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include "emca/explorer/plugin.h"
 #include "scene/scene_objects.h"
 #include "scene/scene_view.h"
+#include "testing/cutting_proxy.h"
 #include "testing/program.h"
 #include "window/layouts.h"
 #include "window/panel_dock.h"
@@ -63,6 +68,48 @@ TEST_F(WindowPluginsTest, HasADockLinkedSelectionAndObjects) {
     ASSERT_TRUE(waitFor([&] { return program.window->toast().sentence().contains("Moody"); }));
     // All else goes on.
     qputenv("EMCA_TEST_MOOD", "");
+    program.selection.setPixel(Pixel{5, 6});
+    EXPECT_TRUE(waitFor([&] { return program.dataset.current().size() == 1 && program.dataset.current()[0]->pixels[0] == Pixel{5, 6}; }));
+    EXPECT_TRUE(plugins->manager().end());
+}
+
+/// A tool that answers when it is told to stop, and never before.
+struct SlowTool : ServerTool {
+    std::string name() const override { return "slow"; }
+    Result<std::vector<std::byte>> answer(std::span<const std::byte>, RequestMonitor& monitor) override {
+        asked = true;
+        while (!monitor.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return std::vector<std::byte>();
+    }
+    std::atomic<bool> asked{false};
+};
+
+TEST_F(WindowPluginsTest, AServerThatDiesWhileAPluginAsksIsSaidToIt) {
+    auto started = Server::start(renderer);
+    ASSERT_TRUE(started);
+    server = std::move(*started);
+    const auto tool = std::make_shared<SlowTool>();
+    ASSERT_TRUE(server->addTool(tool));
+    CuttingProxy proxy(server->port());
+    Program program(settingsFile());
+    const auto plugins = load(program, {file("moody")});
+    program.window->showDock("plugin-moody");
+    program.window->connectTo({"127.0.0.1", proxy.port()});
+    ASSERT_TRUE(waitFor([&] { return program.session.link() == LinkState::connected && program.dataset.currentImage() && program.window->isSettled(); }));
+    program.selection.setPixel(Pixel{3, 4});
+    ASSERT_TRUE(waitFor([&] { return program.dataset.paths().pathCount() == renderer.samplesPerPixel; }));
+    const auto before = program.dataset.current();
+    press(program, "ask and wait");
+    ASSERT_TRUE(waitFor([&] { return tool->asked.load(); }));
+    auto* label = program.window->findChild<QLabel*>("moodyLabel");
+    const QString text = label->text();
+    proxy.cutNow();
+    ASSERT_TRUE(waitFor([&] { return label->text() != text; }));
+    EXPECT_TRUE(label->text().size() > 15 && label->text().endsWith('.')) << label->text().toStdString();
+    qputenv("EMCA_TEST_MOOD", "");
+    // Nothing is lost, the line comes back by itself, and all goes on.
+    EXPECT_EQ(program.dataset.current(), before);
+    ASSERT_TRUE(waitFor([&] { return program.session.link() == LinkState::connected && program.window->isSettled(); }));
     program.selection.setPixel(Pixel{5, 6});
     EXPECT_TRUE(waitFor([&] { return program.dataset.current().size() == 1 && program.dataset.current()[0]->pixels[0] == Pixel{5, 6}; }));
     EXPECT_TRUE(plugins->manager().end());

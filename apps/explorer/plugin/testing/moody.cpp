@@ -90,6 +90,10 @@ class MoodyWidget : public QWidget {
             task_ = context_.ask("slow", {}, {std::chrono::milliseconds(200), {}}, [this](Result<std::vector<std::byte>> reply) {
                 label_->setText(reply ? QString("answered") : QString("error %1").arg(int(reply.error().code)));
             });
+        if (mood("ask and wait"))
+            task_ = context_.ask("slow", {}, {}, [this](Result<std::vector<std::byte>> reply) {
+                label_->setText(reply ? QString("answered") : QString::fromStdString(reply.error().message));
+            });
         if (mood("ask and throw"))
             task_ = context_.ask("echo", {}, {}, [](Result<std::vector<std::byte>>) { throw std::runtime_error("thrown in answered"); });
         if (mood("work"))
