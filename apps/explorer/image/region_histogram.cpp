@@ -1,12 +1,12 @@
 #include "image/region_histogram.h"
 
-#include <QLocale>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
+#include "base/grouped.h"
 #include "base/qt_compat.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
@@ -14,7 +14,6 @@
 namespace emca::explorer {
 namespace {
 
-QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 bool isLuminance(const RegionChannel& channel) { return channel.image.channel == "luminance"; }
 
 }  // namespace

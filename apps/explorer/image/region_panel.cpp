@@ -8,7 +8,6 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QLocale>
 #include <QPushButton>
 #include <QRunnable>
 #include <QTableWidget>
@@ -17,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/grouped.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/theme.h"
@@ -40,8 +40,6 @@ constexpr std::size_t kAtOnce = 1u << 14;
 constexpr int kPreviewMilliseconds = 500, kQueryMilliseconds = 600;
 
 QString number(double value) { return toQString(analysis::formatNumber(value)); }
-QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
-
 QLabel* label(const char* role) {
     auto* made = new QLabel;
     made->setProperty("role", role);

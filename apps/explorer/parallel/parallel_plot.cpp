@@ -5,12 +5,13 @@
 #include <QCompleter>
 #include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QLocale>
 #include <QMenu>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "base/bar_button.h"
+#include "base/grouped.h"
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
@@ -24,20 +25,6 @@ namespace emca::explorer {
 
 using client::PathId;
 using client::SelectionPart;
-
-namespace {
-
-QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
-
-QToolButton* barButton(const QString& text, const QString& tip) {
-    auto* button = new QToolButton;
-    button->setText(text);
-    button->setToolTip(tip);
-    button->setFocusPolicy(Qt::NoFocus);
-    return button;
-}
-
-}  // namespace
 
 ParallelPlot::ParallelPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme, QWidget* parent)
     : QWidget(parent), dataset_(dataset), selection_(selection), theme_(theme), canvas_(new ParallelCanvas(axes_, theme)), add_(new CompletingField),

@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLocale>
 #include <QMenu>
 #include <QPushButton>
 #include <QScopedValueRollback>
@@ -11,6 +10,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "base/grouped.h"
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/theme.h"
@@ -20,8 +20,6 @@
 
 namespace emca::explorer {
 namespace {
-
-QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 
 QLabel* label(const QString& text, const char* role) {
     auto* made = new QLabel(text);

@@ -16,6 +16,7 @@
 #include <QTableView>
 #include <algorithm>
 
+#include "base/grouped.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/table_text.h"
@@ -46,8 +47,6 @@ const char* queryName(PathQuantity quantity) {
         default: return "luminance";
     }
 }
-
-QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 
 }  // namespace
 

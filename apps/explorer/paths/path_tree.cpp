@@ -7,12 +7,12 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
-#include <QLocale>
 #include <QMenu>
 #include <QScopedValueRollback>
 #include <QToolButton>
 #include <algorithm>
 
+#include "base/grouped.h"
 #include "base/path_ids.h"
 #include "base/state_overlay.h"
 #include "base/table_text.h"
@@ -40,8 +40,6 @@ constexpr Ordering kOrderings[] = {
     {"Luminance ↓", PathOrder::luminance, true}, {"Luminance ↑", PathOrder::luminance, false},
     {"Depth ↓", PathOrder::depth, true},         {"Depth ↑", PathOrder::depth, false},
 };
-
-QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 
 QToolButton* textButton(const QString& text, const QString& tip, bool checkable) {
     auto* button = new QToolButton;

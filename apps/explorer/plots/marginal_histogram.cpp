@@ -1,23 +1,17 @@
 #include "plots/marginal_histogram.h"
 
-#include <QLocale>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
+#include "base/grouped.h"
 #include "base/qt_compat.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
 
 namespace emca::explorer {
-namespace {
-
-QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
-
-}  // namespace
-
 MarginalHistogram::MarginalHistogram(const ScatterContent& content, const Theme& theme, QWidget* parent)
     : QWidget(parent), content_(content), theme_(theme), one_(tr("path")), several_(tr("paths")) {
     setMouseTracking(true);

@@ -4,13 +4,14 @@
 #include <QClipboard>
 #include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QLocale>
 #include <QMenu>
 #include <QScopedValueRollback>
 #include <QToolButton>
 #include <algorithm>
 
+#include "base/bar_button.h"
 #include "base/filter_menu.h"
+#include "base/grouped.h"
 #include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
@@ -24,20 +25,6 @@ namespace emca::explorer {
 
 using client::PathId;
 using client::SelectionPart;
-
-namespace {
-
-QString grouped(std::size_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
-
-QToolButton* barButton(const QString& text, const QString& tip) {
-    auto* button = new QToolButton;
-    button->setText(text);
-    button->setToolTip(tip);
-    button->setFocusPolicy(Qt::NoFocus);
-    return button;
-}
-
-}  // namespace
 
 PathPlot::PathPlot(client::Dataset& dataset, client::Selection& selection, Theme& theme, std::vector<PathPlotRow> rows,
                    QWidget* parent)

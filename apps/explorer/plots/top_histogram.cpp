@@ -1,12 +1,12 @@
 #include "plots/top_histogram.h"
 
-#include <QLocale>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
+#include "base/grouped.h"
 #include "base/qt_compat.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
@@ -91,7 +91,7 @@ void TopHistogram::mouseMoveEvent(QMouseEvent* event) {
     const auto i = std::size_t(bar);
     QToolTip::showText(globalPositionOf(*event),
                        tr("%1 to %2: %3").arg(toQString(analysis::formatNumber(all_.lower(i))), toQString(analysis::formatNumber(all_.upper(i))),
-                                              QLocale(QLocale::English).toString(qulonglong(all_.counts[i]))),
+                                              grouped(all_.counts[i])),
                        this);
 }
 

@@ -1,9 +1,9 @@
 // Traces and their history of SessionController.
-#include <QLocale>
 #include <QScopedValueRollback>
 #include <algorithm>
 
 #include "base/qt_compat.h"
+#include "base/grouped.h"
 #include "emca/analysis/format.h"
 #include "session/session_controller.h"
 
@@ -45,8 +45,6 @@ QString capitalized(const client::PixelRegion& pixels) {
     if (!text.isEmpty()) text[0] = text[0].toUpper();
     return text;
 }
-
-QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 
 }  // namespace
 

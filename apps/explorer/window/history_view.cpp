@@ -1,7 +1,6 @@
 #include "window/history_view.h"
 
 #include <QListView>
-#include <QLocale>
 #include <QMenu>
 #include <QPainter>
 #include <QSignalBlocker>
@@ -9,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "base/grouped.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/table_text.h"
@@ -21,8 +21,6 @@ namespace emca::explorer {
 namespace {
 
 constexpr int kRowHeight = 46;
-
-QString grouped(std::uint64_t count) { return QLocale(QLocale::English).toString(qulonglong(count)); }
 
 class HistoryDelegate : public QStyledItemDelegate {
   public:
