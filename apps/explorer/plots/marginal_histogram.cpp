@@ -1,8 +1,6 @@
 #include "plots/marginal_histogram.h"
 
-#include <QMouseEvent>
 #include <QPainter>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +11,7 @@
 
 namespace emca::explorer {
 MarginalHistogram::MarginalHistogram(const ScatterContent& content, const Theme& theme, QWidget* parent)
-    : QWidget(parent), content_(content), theme_(theme), one_(tr("path")), several_(tr("paths")) {
-    setMouseTracking(true);
+    : BarHistogram(content, content.ys, theme, parent), one_(tr("path")), several_(tr("paths")) {
     setFixedWidth(sizeHint().width());
 }
 
@@ -33,25 +30,17 @@ void MarginalHistogram::refresh() {
     if (integral_) {
         // One bar for each whole number, as long as a bar is a few pixels high.
         const double first = std::ceil(y.min), last = std::max(first, std::floor(y.max));
-        const double most = std::max(1.0, length / 4), count = last - first + 1, step = std::ceil(count / most);
-        bins = static_cast<std::size_t>(std::max(1.0, std::ceil(count / step)));
+        const double most = std::max(1.0, length / 4), whole = last - first + 1, step = std::ceil(whole / most);
+        bins = static_cast<std::size_t>(std::max(1.0, std::ceil(whole / step)));
         range = {first - 0.5, first - 0.5 + step * double(bins), false};
     } else {
         bins = std::clamp<std::size_t>(static_cast<std::size_t>(length / 6), 1, 64);
     }
-    all_ = analysis::histogram(content_.ys, range, bins);
-    selected_ = histogramOfSelected();
+    count(range, bins);
     dimmed_ = !content_.selected.empty();
     const std::uint64_t most = std::max({all_.largest(), all_.below, all_.above, all_.nan});
     roomForCount_ = 12 + QFontMetrics(theme_.smallNumberFont()).horizontalAdvance(grouped(most));
     update();
-}
-
-analysis::Histogram MarginalHistogram::histogramOfSelected() const {
-    std::vector<double> chosen;
-    chosen.reserve(content_.selected.size());
-    for (const std::uint32_t i : content_.selected) chosen.push_back(content_.ys[i]);
-    return analysis::histogram(chosen, all_.range, all_.binCount());
 }
 
 void MarginalHistogram::refreshSelected() {
@@ -158,27 +147,7 @@ int MarginalHistogram::barAt(QPointF position) const {
     return -1;
 }
 
-void MarginalHistogram::mousePressEvent(QMouseEvent* event) {
-    const int bar = event->button() == Qt::LeftButton ? barAt(positionOf(*event)) : -1;
-    if (bar < 0) return QWidget::mousePressEvent(event);
-    const double low = all_.lower(std::size_t(bar)), high = all_.upper(std::size_t(bar));
-    const bool lastBar = std::size_t(bar) + 1 == all_.binCount();
-    QVector<quint32> points;
-    for (std::uint32_t i = 0; i < content_.ys.size(); ++i) {
-        const double y = content_.ys[i];
-        if (y >= low && (y < high || (lastBar && y <= high))) points.append(i);
-    }
-    emit barClicked(points, event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier));
-}
-
-void MarginalHistogram::mouseMoveEvent(QMouseEvent* event) {
-    const int bar = barAt(positionOf(*event));
-    if (bar != hovered_) {
-        hovered_ = bar;
-        update();
-    }
-    if (bar < 0) return QToolTip::hideText();
-    const auto i = std::size_t(bar);
+QString MarginalHistogram::tip(std::size_t i) const {
     const QString from = toQString(analysis::formatNumber(all_.lower(i))),
                   to = toQString(analysis::formatNumber(all_.upper(i)));
     const QString range = integral_ && all_.upper(i) - all_.lower(i) == 1
@@ -188,12 +157,7 @@ void MarginalHistogram::mouseMoveEvent(QMouseEvent* event) {
     const QString name = !names_.isEmpty() && whole >= 0 && whole < names_.size() ? names_[int(whole)] : range;
     QString text = tr("%1: %2 %3").arg(name, grouped(all_.counts[i]), all_.counts[i] == 1 ? one_ : several_);
     if (selected_.counts[i] > 0) text += tr(", %1 selected").arg(grouped(selected_.counts[i]));
-    QToolTip::showText(globalPositionOf(*event), text, this);
-}
-
-void MarginalHistogram::leaveEvent(QEvent*) {
-    hovered_ = -1;
-    update();
+    return text;
 }
 
 }  // namespace emca::explorer

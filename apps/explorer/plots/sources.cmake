@@ -7,6 +7,8 @@ set(EMCA_PLOTS_SOURCES
   plots/edge_marks.h
   plots/luminance_plot.cpp
   plots/luminance_plot.h
+  plots/bar_histogram.cpp
+  plots/bar_histogram.h
   plots/marginal_histogram.cpp
   plots/marginal_histogram.h
   plots/mean_label.cpp

@@ -1,8 +1,6 @@
 #include "plots/top_histogram.h"
 
-#include <QMouseEvent>
 #include <QPainter>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +12,7 @@
 namespace emca::explorer {
 
 TopHistogram::TopHistogram(const ScatterContent& content, const Theme& theme, QWidget* parent)
-    : QWidget(parent), content_(content), theme_(theme) {
-    setMouseTracking(true);
+    : BarHistogram(content, content.xs, theme, parent) {
     setFixedHeight(sizeHint().height());
 }
 
@@ -30,10 +27,7 @@ void TopHistogram::refresh(int left) {
         const double step = std::ceil((last - first + 1) / double(bins));
         range = {first - 0.5, first - 0.5 + step * double(bins), false};
     }
-    all_ = analysis::histogram(content_.xs, range, bins);
-    std::vector<double> chosen;
-    for (const std::uint32_t point : content_.selected) chosen.push_back(content_.xs[point]);
-    selected_ = analysis::histogram(chosen, range, bins);
+    count(range, bins);
     update();
 }
 
@@ -68,36 +62,8 @@ int TopHistogram::barAt(QPointF position) const {
     return -1;
 }
 
-void TopHistogram::mousePressEvent(QMouseEvent* event) {
-    const int bar = event->button() == Qt::LeftButton ? barAt(positionOf(*event)) : -1;
-    if (bar < 0) return QWidget::mousePressEvent(event);
-    const double low = all_.lower(std::size_t(bar)), high = all_.upper(std::size_t(bar));
-    const bool last = std::size_t(bar) + 1 == all_.binCount();
-    QVector<quint32> points;
-    for (std::uint32_t i = 0; i < content_.xs.size(); ++i) {
-        const double x = content_.xs[i];
-        if (x >= low && (x < high || (last && x <= high))) points.append(i);
-    }
-    emit barClicked(points, event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier));
-}
-
-void TopHistogram::mouseMoveEvent(QMouseEvent* event) {
-    const int bar = barAt(positionOf(*event));
-    if (bar != hovered_) {
-        hovered_ = bar;
-        update();
-    }
-    if (bar < 0) return QToolTip::hideText();
-    const auto i = std::size_t(bar);
-    QToolTip::showText(globalPositionOf(*event),
-                       tr("%1 to %2: %3").arg(toQString(analysis::formatNumber(all_.lower(i))), toQString(analysis::formatNumber(all_.upper(i))),
-                                              grouped(all_.counts[i])),
-                       this);
-}
-
-void TopHistogram::leaveEvent(QEvent*) {
-    hovered_ = -1;
-    update();
+QString TopHistogram::tip(std::size_t i) const {
+    return tr("%1 to %2: %3").arg(toQString(analysis::formatNumber(all_.lower(i))), toQString(analysis::formatNumber(all_.upper(i))), grouped(all_.counts[i]));
 }
 
 }  // namespace emca::explorer
