@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(EMCA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/emca)
 set(installed)
-foreach(part core recorder query probe protocol server client analysis imageio)
+foreach(part core recorder query probe protocol server adapter client analysis imageio)
   if(TARGET emca_${part})
     list(APPEND installed emca_${part})
     install(DIRECTORY libs/${part}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <iostream>
-#include <limits>
 #include <vector>
 
 #include "emca/render/image_renderer.h"
@@ -79,7 +78,7 @@ Result<CommandLine> check(const RawCommandLine& raw) {
         line.defines[define->first] = define->second;
     }
     if (!raw.serve.empty()) {
-        auto serve = parseServeAddress(raw.serve);
+        auto serve = adapter::parseServeAddress(raw.serve);
         if (!serve) return serve.error();
         line.serve = *serve;
     }
@@ -89,24 +88,6 @@ Result<CommandLine> check(const RawCommandLine& raw) {
 }
 
 }  // namespace
-
-Result<ServeAddress> parseServeAddress(const std::string& text) {
-    ServeAddress address;
-    std::string port = text;
-    if (const auto colon = text.rfind(':'); colon != std::string::npos) {
-        address.host = text.substr(0, colon);
-        port = text.substr(colon + 1);
-        if (address.host.size() > 2 && address.host.front() == '[' && address.host.back() == ']') {
-            address.host = address.host.substr(1, address.host.size() - 2);
-        }
-    }
-    const auto number = wholeNumber<std::uint32_t>(port);
-    if (!number || *number > std::numeric_limits<std::uint16_t>::max() || address.host.empty()) {
-        return usageError("--serve is " + text + ": give PORT or HOST:PORT with a port from 0 to 65535 (0 picks one).");
-    }
-    address.port = static_cast<std::uint16_t>(*number);
-    return address;
-}
 
 Result<ImageSize> parseImageSize(const std::string& text) {
     const auto cross = text.find('x');

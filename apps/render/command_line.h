@@ -7,19 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "emca/adapter/serving.h"
 #include "emca/core/result.h"
 
 namespace emca {
-
-/// Where to serve.
-struct ServeAddress {
-    std::string host = "127.0.0.1";
-    std::uint16_t port = 0;  ///< 0: the system picks one
-    friend bool operator==(const ServeAddress&, const ServeAddress&) = default;
-};
-
-/// "PORT" or "HOST:PORT"; an IPv6 host stands in brackets. Errors: invalidArgument.
-Result<ServeAddress> parseServeAddress(const std::string& text);
 
 /// "WIDTHxHEIGHT". Errors: invalidArgument.
 struct ImageSize {
@@ -37,7 +28,7 @@ struct CommandLine {
     std::optional<std::uint64_t> seed;
     int threads = 0;  ///< 0: one per processor
     std::map<std::string, std::string> defines;
-    std::optional<ServeAddress> serve;
+    std::optional<adapter::ServeAddress> serve;
     std::vector<std::filesystem::path> tools;  ///< server tools in files of their own
 };
 

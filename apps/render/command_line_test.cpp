@@ -29,7 +29,7 @@ TEST(CommandLine, ReadsTheWholeContract) {
     EXPECT_EQ(line.threads, 2);
     EXPECT_EQ(line.defines.at("a"), "1");
     EXPECT_EQ(line.defines.at("b"), "x=y");
-    EXPECT_EQ(line.serve, (ServeAddress{"0.0.0.0", 50013}));
+    EXPECT_EQ(line.serve, (adapter::ServeAddress{"0.0.0.0", 50013}));
     EXPECT_EQ(line.tools, (std::vector<std::filesystem::path>{"a.so", "b.so"}));
 }
 
@@ -44,12 +44,6 @@ TEST(CommandLine, RefusesWhatMakesNoSense) {
         EXPECT_EQ(parsed.exitCode, kExitUsage);
     }
     EXPECT_EQ(parse({"--help"}).exitCode, kExitOk);
-}
-
-TEST(CommandLine, ServesOnLoopbackUnlessToldOtherwise) {
-    EXPECT_EQ(*parseServeAddress("50013"), (ServeAddress{"127.0.0.1", 50013}));
-    EXPECT_EQ(*parseServeAddress("0"), (ServeAddress{"127.0.0.1", 0}));
-    EXPECT_EQ(*parseServeAddress("[::1]:7"), (ServeAddress{"::1", 7}));
 }
 
 }  // namespace

@@ -4,11 +4,10 @@
 #include <optional>
 
 #include "command_line.h"
+#include "emca/adapter/serving.h"
 #include "emca/imageio/imageio.h"
 #include "emca/render/scene_loader.h"
-#include "emca/server/server.h"
 #include "emca/server/tool_file.h"
-#include "ending_signal.h"
 #include "light_probe_tool.h"
 #include "progress_bar.h"
 #include "renderer_adapter.h"
@@ -44,37 +43,33 @@ int renderToFile(const std::shared_ptr<const render::Scene>& scene, const render
 }
 
 /// The renderer's own tools, and those that the command line names.
-Result<void> addTools(Server& server, const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
-                      const CommandLine& line) {
-    if (auto added = server.addTool(std::make_shared<LightProbeTool>(scene, options, line.threads)); !added) return added.error();
+Result<std::vector<std::shared_ptr<ServerTool>>> toolsOf(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
+                                                         const CommandLine& line) {
+    std::vector<std::shared_ptr<ServerTool>> tools{std::make_shared<LightProbeTool>(scene, options, line.threads)};
     for (const std::filesystem::path& file : line.tools) {
         auto tool = loadTool(file);
         if (!tool) return tool.error();
-        if (auto added = server.addTool(std::move(tool).value()); !added) return added.error();
+        tools.push_back(std::move(tool).value());
     }
-    return {};
+    return tools;
 }
 
 int serve(const std::shared_ptr<const render::Scene>& scene, const render::RenderOptions& options,
-          const CommandLine& line, EndingSignal& ending) {
-    RendererAdapter adapter(scene, options, line.integrator.value_or("path"), line.threads);
+          const CommandLine& line, adapter::EndingSignal& ending) {
+    RendererAdapter renderer(scene, options, line.integrator.value_or("path"), line.threads);
     ServerOptions serverOptions;
     serverOptions.host = line.serve->host;
     serverOptions.port = line.serve->port;
     serverOptions.maximumSamplesPerPixel = render::kMaximumSamplesPerPixel;
     serverOptions.log = [](const std::string& remark) { std::cerr << remark << std::endl; };
-    auto server = Server::start(adapter, serverOptions);
-    if (!server) return fail(server.error(), kExitConnection);
-    if (auto added = addTools(**server, scene, options, line); !added) return fail(added.error(), kExitInput);
-    ending.setAction([&server] { (*server)->stop(); });
-    std::cout << "listening on " << (*server)->address() << std::endl;
-    (*server)->wait();
-    ending.setAction([] {});  // a second signal must not meet a server that is gone
-    return kExitOk;
+    const auto tools = toolsOf(scene, options, line);
+    if (!tools) return fail(tools.error(), kExitInput);
+    const auto served = adapter::serve(renderer, serverOptions, *tools, ending, std::cout);
+    return served ? kExitOk : fail(served.error(), kExitConnection);
 }
 
 int run(const CommandLine& line) {
-    std::optional<EndingSignal> ending;
+    std::optional<adapter::EndingSignal> ending;
     if (line.serve) ending.emplace();
     if (line.output) imageio::prepareFor(*line.output);
     render::SceneOptions sceneOptions;

@@ -26,14 +26,17 @@ const std::map<std::string, Rule>& rules() {
         {"libs/probe", {{"core", "probe"}, {}}},
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
         {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio", "dlfcn.h"}}},
+        {"libs/adapter", {{"core", "recorder", "server", "probe", "adapter"}, {"pthread.h", "signal.h"}}},
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
         {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "jpeglib.h", "dlfcn.h", "link.h"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
         {"libs/render", {{"core", "recorder", "imageio", "probe", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h"}}},
-        {"apps/render", {{"core", "recorder", "imageio", "probe", "render", "server"}, {"CLI/", "fmt/", "unistd.h", "pthread.h", "signal.h", "sys/ioctl.h"}}},
+        {"apps/render", {{"core", "recorder", "imageio", "probe", "render", "server", "adapter"}, {"CLI/", "fmt/", "unistd.h", "sys/ioctl.h"}}},
         {"apps/cli", {{"core", "client", "query", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
         {"apps/explorer", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h", "fcntl.h", "signal.h"}}},
         {"plugins", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q"}}},
+        // What they include of their renderers is theirs to say.
+        {"integrations", {{"core", "recorder", "server", "adapter", "probe", "imageio"}, {""}}},
         {"python", {{"core", "recorder", "query", "server", "client", "analysis"}, {"pybind11/"}}},
         {"examples", {{"core", "recorder", "server", "client", "probe", "analysis", "explorer"}, {"Q"}}},
     };

@@ -33,32 +33,7 @@ Result<void> check(const RenderOptions& options) {
 
 Error cancelledError() { return {ErrorCode::cancelled, "The render was cancelled before it was complete."}; }
 
-/// Sums of one channel in double precision, where neither a million samples nor their squares lose digits that a
-/// float could show.
-struct ChannelSums {
-    double sum = 0, squares = 0;
-    void add(float value) {
-        sum += double(value);
-        squares += double(value) * double(value);
-    }
-    float mean(double count) const { return static_cast<float>(sum / count); }
-    float variance(double count) const {
-        if (count < 2) return 0.f;
-        const double variance = (squares - sum * sum / count) / (count - 1);
-        return static_cast<float>(variance < 0 ? 0 : variance);  // NaN stays NaN
-    }
-};
-
 }  // namespace
-
-/// What a pixel's samples have added up to so far, always in the order of their indices.
-struct ImageRenderer::PixelSums {
-    ChannelSums red, green, blue;
-    void add(Color radiance) { red.add(radiance.r), green.add(radiance.g), blue.add(radiance.b); }
-    Color mean(double count) const { return {red.mean(count), green.mean(count), blue.mean(count)}; }
-    /// Unbiased, of the samples.
-    Color variance(double count) const { return {red.variance(count), green.variance(count), blue.variance(count)}; }
-};
 
 RenderOptions sceneOptions(const Scene& scene) {
     return {scene.samplesPerPixel(), scene.sampler(), 0, scene.integrator()};
@@ -84,7 +59,7 @@ Color ImageRenderer::samplePixel(Pixel pixel, std::uint32_t index, Sampler& samp
     return integrator.radiance(ray, sampler, emca, surface);
 }
 
-bool ImageRenderer::addSamples(Pixel pixel, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,
+bool ImageRenderer::addSamples(Pixel pixel, SampleRange pass, const RenderOptions& options, const RenderCallbacks& callbacks,
                                SurfaceTally* surface, PixelSums& sums) const {
     const PathIntegrator integrator(*scene_, options.integrator);
     Sampler sampler(options.sampler, options.seed);
@@ -100,7 +75,7 @@ bool ImageRenderer::addSamples(Pixel pixel, Pass pass, const RenderOptions& opti
     return true;
 }
 
-bool ImageRenderer::renderTile(PixelRect tile, Pass pass, const RenderOptions& options,
+bool ImageRenderer::renderTile(PixelRect tile, SampleRange pass, const RenderOptions& options,
                                const RenderCallbacks& callbacks, SurfaceTally* surface, PixelSums* kept,
                                RenderedImage& image) const {
     std::vector<Color> colors;
@@ -111,29 +86,15 @@ bool ImageRenderer::renderTile(PixelRect tile, Pass pass, const RenderOptions& o
             PixelSums fresh;
             PixelSums& sums = kept ? kept[std::size_t(y) * image.color.width() + x] : fresh;
             if (!addSamples({x, y}, pass, options, callbacks, surface, sums)) return false;
-            const Color mean = sums.mean(pass.last);
+            const Color mean = sums.mean();
             image.color.setColor({x, y}, mean);
-            image.variance.setColor({x, y}, sums.variance(pass.last));
+            image.variance.setColor({x, y}, sums.variance());
             *image.samples.at({x, y}) = static_cast<float>(pass.last);
             if (callbacks.tileDone) colors.push_back(mean);
         }
     }
     if (callbacks.tileDone) callbacks.tileDone(tile, colors);
     return true;
-}
-
-/// A tile's samples all at once are best for the caches. But a face on which samples are collected hands those that it
-/// had before it was divided down by the density of those after: they must not come from another part of it. So then
-/// faces divide between passes over the image, which get longer: each doubles the samples, as long as three quarters of
-/// all are still to come.
-std::vector<ImageRenderer::Pass> ImageRenderer::passes(std::uint32_t samplesPerPixel, bool collects) {
-    if (!collects) return {{0, samplesPerPixel}};
-    std::vector<Pass> all{{0, 1}};
-    while (all.back().last < samplesPerPixel) {
-        const std::uint32_t first = all.back().last;
-        all.push_back({first, 4 * std::uint64_t(first) < samplesPerPixel ? 2 * first : samplesPerPixel});
-    }
-    return all;
 }
 
 Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, const RenderCallbacks& callbacks,
@@ -149,7 +110,7 @@ Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, c
     std::vector<PixelSums> kept(layers ? std::size_t(width) * height : 0);
 
     tbb::task_arena arena(threads_);
-    for (const Pass pass : passes(options.samplesPerPixel, layers.has_value())) {
+    for (const SampleRange pass : samplePasses(options.samplesPerPixel, layers.has_value())) {
         const auto renderTiles = [&](const tbb::blocked_range<std::uint32_t>& range) {
             for (std::uint32_t i = range.begin(); i < range.end() && !stop; ++i) {
                 const std::uint32_t x = i % columns * kTileSize, y = i / columns * kTileSize;
@@ -186,7 +147,7 @@ Result<Color> ImageRenderer::renderPixel(Pixel pixel, const RenderOptions& optio
     }
     PixelSums sums;
     if (!addSamples(pixel, {0, options.samplesPerPixel}, options, callbacks, nullptr, sums)) return cancelledError();
-    return sums.mean(options.samplesPerPixel);
+    return sums.mean();
 }
 
 }  // namespace emca::render

@@ -7,6 +7,7 @@
 
 #include "emca/core/image.h"
 #include "emca/core/pixel.h"
+#include "emca/core/pixel_sums.h"
 #include "emca/core/result.h"
 #include "emca/render/path_integrator.h"
 #include "emca/render/scene.h"
@@ -55,21 +56,15 @@ class ImageRenderer {
     int threads() const { return threads_; }
 
   private:
-    struct PixelSums;
-    /// Part of an image's samples: the same for all pixels.
-    struct Pass {
-        std::uint32_t first = 0, last = 0;  ///< sample indices
-    };
     /// \return false if cancelled
-    bool addSamples(Pixel pixel, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,
+    bool addSamples(Pixel pixel, SampleRange pass, const RenderOptions& options, const RenderCallbacks& callbacks,
                     SurfaceTally* surface, PixelSums& sums) const;
     Color samplePixel(Pixel pixel, std::uint32_t index, Sampler& sampler, const PathIntegrator& integrator,
                       emca::PathRecorder& emca, SurfaceTally* surface) const;
     /// \param kept  sums of the passes before, for all pixels of the image; null: this pass is all
     /// \return false if cancelled
-    bool renderTile(PixelRect tile, Pass pass, const RenderOptions& options, const RenderCallbacks& callbacks,
+    bool renderTile(PixelRect tile, SampleRange pass, const RenderOptions& options, const RenderCallbacks& callbacks,
                     SurfaceTally* surface, PixelSums* kept, RenderedImage& image) const;
-    static std::vector<Pass> passes(std::uint32_t samplesPerPixel, bool collects);
 
     std::shared_ptr<const Scene> scene_;
     int threads_;

@@ -1,11 +1,11 @@
-#include "ending_signal.h"
+#include "emca/adapter/ending_signal.h"
 
 #include <pthread.h>
 
 #include <cstdlib>
 #include <utility>
 
-namespace emca {
+namespace emca::adapter {
 
 EndingSignal::EndingSignal() {
     sigemptyset(&signals_);
@@ -38,4 +38,4 @@ void EndingSignal::wait() {
     action_();
 }
 
-}  // namespace emca
+}  // namespace emca::adapter

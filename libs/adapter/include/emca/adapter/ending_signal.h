@@ -6,7 +6,7 @@
 
 #include <signal.h>
 
-namespace emca {
+namespace emca::adapter {
 
 /// Turns SIGINT and SIGTERM into a clean end. Make it before any other thread exists: it blocks the signals for all
 /// that come later and waits for them in a thread of its own.
@@ -30,4 +30,4 @@ class EndingSignal {
     std::thread thread_;
 };
 
-}  // namespace emca
+}  // namespace emca::adapter
