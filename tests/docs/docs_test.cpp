@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <regex>
 #include <sstream>
@@ -63,7 +64,7 @@ std::vector<std::string> commands(const fs::path& page) {
 /// Runs the commands of one page one after the other, as a person would in one terminal.
 class Terminal {
   public:
-    explicit Terminal(const fs::path& page) : folder_(kWork / page.stem()) {
+    explicit Terminal(const fs::path& page) : folder_(kWork / (page.parent_path().stem().string() + "-" + page.stem().string())) {
         fs::remove_all(folder_);
         fs::create_directories(folder_);
         fs::create_directory_symlink(kSource / "scenes", folder_ / "scenes");
@@ -82,6 +83,8 @@ class Terminal {
             EXPECT_NE(contents(kSource / "CMakePresets.json").find("\"name\": \"" + match[2].str() + "\""), std::string::npos);
             return;
         }
+        if (std::smatch match; std::regex_search(command, match, std::regex(R"(^cmake .*-D(EMCA_[A-Z0-9_]+)=)"))) return knowOptions(command);
+        if (std::smatch match; std::regex_search(command, match, std::regex(R"(^(?:\S*/)?(emca-(?:pbrt|lajolla|nori)|mitsuba)\b)"))) return knowAdapter(match[1], command);
         if (command.rfind("cmake --install ", 0) == 0) return;  // tests/consumer installs and uses it
         // python/tests install the package, and serve and read back this example.
         if (command.rfind("python3 -m venv ", 0) == 0 || command.find("/bin/pip install ") != std::string::npos) return;
@@ -94,6 +97,30 @@ class Terminal {
     }
 
   private:
+    /// Adapters need renderers that this machine may not have: their options are at least those of the source.
+    static void knowOptions(const std::string& command) {
+        std::string known;
+        for (const auto& entry : fs::recursive_directory_iterator(kSource / "integrations"))
+            if (entry.path().extension() == ".txt" || entry.path().extension() == ".cmake") known += contents(entry.path());
+        const std::regex option(R"(-D(EMCA_[A-Z0-9_]+)=)");
+        for (std::sregex_iterator it(command.begin(), command.end(), option), end; it != end; ++it)
+            EXPECT_NE(known.find((*it)[1].str()), std::string::npos) << (*it)[1];
+    }
+
+    static void knowAdapter(const std::string& program, const std::string& command) {
+        const std::map<std::string, std::string> folders{{"emca-pbrt", "pbrt4"}, {"emca-lajolla", "lajolla"}, {"emca-nori", "nori"}, {"mitsuba", "mitsuba06"}};
+        const fs::path folder = kSource / "integrations" / folders.at(program);
+        ASSERT_TRUE(fs::exists(folder / "CMakeLists.txt"));
+        if (program == "mitsuba") return;  // its options are Mitsuba's
+        std::string known;
+        for (const fs::path& part : {folder, kSource / "libs/adapter"})
+            for (const auto& entry : fs::recursive_directory_iterator(part))
+                if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") known += contents(entry.path());
+        const std::regex option(R"(\s(--[a-z-]+))");
+        for (std::sregex_iterator it(command.begin(), command.end(), option), end; it != end; ++it)
+            EXPECT_NE(known.find((*it)[1].str()), std::string::npos) << (*it)[1];
+    }
+
     void serve(const std::string& where, std::string command) {
         command = std::regex_replace(command, std::regex(R"(\s*&$)"), "");
         command.replace(command.find("--serve " + where), 8 + where.size(), "--serve 0 --size 320x240");
@@ -143,7 +170,7 @@ TEST(Docs, EverySnippetCompiles) {
     std::ofstream(file) << all.str();
     const auto include = [](const char* part) { return "-I" + (kSource / "libs" / part / "include").string(); };
     const test::Outcome outcome = run({EMCA_COMPILER, "-std=c++20", "-fsyntax-only", "-I" + (kSource / "tests/docs").string(), include("core"),
-                                       include("recorder"), include("server"), include("client"), file.string()});
+                                       include("recorder"), include("server"), include("client"), include("probe"), include("adapter"), file.string()});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
 }
 

@@ -1,6 +1,10 @@
 #pragma once
 
 // What the snippets of the documentation take for granted: a renderer around them, or the models of a viewer.
+#include "emca/adapter/light_probe_tool.h"
+#include "emca/adapter/parametric_mesh.h"
+#include "emca/adapter/pixel_loop.h"
+#include "emca/adapter/serving.h"
 #include "emca/client/session.h"
 #include "emca/core/seed_map.h"
 #include "emca/recorder/handles.h"
@@ -25,6 +29,7 @@ inline bool visible = true;
 inline int sample = 0, bounce = 0, maxBounces = 8, samplesSoFar = 0, samplesPerPixel = 1;
 inline std::uint64_t masterSeed = 0;
 inline void fail(const std::string&) {}
+inline emca::Color trace(emca::Pixel) { return {}; }
 namespace client = emca::client;
 inline client::Dataset dataset;
 inline client::Selection selection;
