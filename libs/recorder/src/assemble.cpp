@@ -321,8 +321,8 @@ class Assembler {
         out_.splats = splats_.share<Splat>();
     }
 
-    std::uint32_t locationText(const std::source_location& where) {
-        const std::string text = std::string(where.file_name()) + ":" + std::to_string(where.line());
+    std::uint32_t locationText(SourceLine where) {
+        const std::string text = std::string(where.file) + ":" + std::to_string(where.line);
         const auto [it, added] = knownLocations_.try_emplace(text, static_cast<std::uint32_t>(strings_.size()));
         if (added) strings_.push_back(text);
         return it->second;
@@ -392,8 +392,8 @@ void Assembler::addUserValue(const Route& route, Index owner, Index cursor, cons
         }
     }
     if (route.kind == Route::located) {
-        column.addLocation(locationText(load<std::source_location>(at)));
-        at += sizeof(std::source_location);
+        column.addLocation(locationText(load<SourceLine>(at)));
+        at += sizeof(SourceLine);
     }
 }
 

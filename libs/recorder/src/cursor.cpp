@@ -291,7 +291,7 @@ void CursorImpl::append(const KeyParts& key, Scope scope, const T& value) {
         const bool wide = isWide(column), located = shared_.options.locations;
         const std::uint16_t tag =
             wide ? std::uint16_t(LogTag::wide) : static_cast<std::uint16_t>(LogTag::firstUser + column);
-        const std::source_location& where = key.where;
+        const SourceLine& where = key.where;
         if (!reserve((sizeof tag + ... + parts.size()) + (wide ? sizeof column : 0) + (located ? sizeof where : 0)))
             return;
         const auto put = [&](std::span<const std::byte> bytes) {
@@ -329,7 +329,7 @@ void Cursor::addPathData(Key key, T value) {
 /// What addVertexData() could not do: a text or a spectrum, a column that is new or whose place is taken, no vertex, or
 /// no room.
 template <typename T>
-void Cursor::addVertexDataSlowly(std::string_view key, std::uint64_t hash, std::source_location where, T value) {
+void Cursor::addVertexDataSlowly(std::string_view key, std::uint64_t hash, SourceLine where, T value) {
     CursorImpl& c = impl(*this);
     if (c.vertex_ == CursorImpl::kNone) return c.dropWithoutVertex();
     c.append({key, hash, where}, Scope::vertex, value);
@@ -337,7 +337,7 @@ void Cursor::addVertexDataSlowly(std::string_view key, std::uint64_t hash, std::
 
 #define EMCA_STORED_TYPE(T)                       \
     template void Cursor::addPathData<T>(Key, T); \
-    template void Cursor::addVertexDataSlowly<T>(std::string_view, std::uint64_t, std::source_location, T)
+    template void Cursor::addVertexDataSlowly<T>(std::string_view, std::uint64_t, SourceLine, T)
 EMCA_STORED_TYPE(bool);
 EMCA_STORED_TYPE(std::int64_t);
 EMCA_STORED_TYPE(Vec2i);

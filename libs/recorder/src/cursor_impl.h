@@ -4,7 +4,6 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <source_location>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,7 +64,7 @@ struct PathRow {
 struct KeyParts {
     std::string_view text;
     std::uint64_t hash;
-    std::source_location where;
+    SourceLine where;
 };
 
 /// A user column of one thread.
@@ -147,7 +146,7 @@ void CursorImpl::readRecords(LogPosition from, LogPosition to, Visit&& visit) co
         sizeof(Vec3f), sizeof(NextEvent), sizeof(Color), sizeof(Color), sizeof(SurfaceValue), sizeof(EventValue),
         sizeof(Contribution), sizeof(Splat), 0};
     static_assert(std::size(kCoreBytes) == LogTag::firstUser);
-    const std::size_t place = shared_.options.locations ? sizeof(std::source_location) : 0;
+    const std::size_t place = shared_.options.locations ? sizeof(SourceLine) : 0;
     log_.read(from, to, [&](const std::byte* at, const std::byte* end) {
         while (at < end) {
             std::uint16_t shortTag;

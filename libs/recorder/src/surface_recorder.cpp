@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <new>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -139,10 +141,13 @@ thread_local ThreadCursors threadCursors;
 
 struct SurfaceRecorder::Impl {
     std::shared_ptr<detail::SurfaceStore> store;
+    std::vector<std::uint32_t> triangleCounts;
+    std::optional<SurfaceField> field;  ///< the renderer's own, if it set one
 };
 
 SurfaceRecorder::SurfaceRecorder(std::vector<SurfaceMeshView> meshes, SurfaceOptions options)
     : impl_(std::make_unique<Impl>()) {
+    for (const SurfaceMeshView& mesh : meshes) impl_->triangleCounts.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     impl_->store = std::make_shared<detail::SurfaceStore>(std::move(meshes), options);
 }
 
@@ -238,7 +243,20 @@ void SurfaceRecorder::passDone(double part) {
     if (impl_->store->isSetUp()) impl_->store->divideAll(part);
 }
 
+Result<void> SurfaceRecorder::setField(SurfaceField field) {
+    const auto& asked = layers();
+    const auto same = [](const SurfaceLayerData& has, const LayerDescription& layer) { return has.description == layer; };
+    if (!std::equal(field.layers.begin(), field.layers.end(), asked.begin(), asked.end(), same)) {
+        return Error{ErrorCode::invalidArgument, "The field that was set has " + std::to_string(field.layers.size()) +
+                                                     " layers other than the " + std::to_string(asked.size()) + " of the recorder: use those of layers(), in that order."};
+    }
+    if (auto valid = validate(field, impl_->triangleCounts); !valid) return valid;
+    impl_->field = std::move(field);
+    return {};
+}
+
 SurfaceField SurfaceRecorder::finish() {
+    if (impl_->field) return *impl_->field;
     detail::SurfaceStore& store = *impl_->store;
     if (store.isSetUp()) store.flush();
     return detail::makeField(store);

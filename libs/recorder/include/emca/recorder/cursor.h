@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <source_location>
 #include <span>
 #include <string_view>
 
@@ -137,7 +136,7 @@ class Cursor {
     bool makeRoom(std::uint16_t tag, std::size_t bytes);
     // Keys in parts, which travel in registers.
     template <typename T>
-    void addVertexDataSlowly(std::string_view key, std::uint64_t hash, std::source_location where, T value);
+    void addVertexDataSlowly(std::string_view key, std::uint64_t hash, SourceLine where, T value);
 
     std::byte* next_ = nullptr;   ///< of the log
     std::byte* limit_ = nullptr;  ///< where the log has no more room; nullptr if no vertex is open

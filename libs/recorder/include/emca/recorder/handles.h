@@ -27,6 +27,7 @@ class VertexHandle {
 
   private:
     friend class PathHandle;
+    friend struct detail::BindingAccess;
     VertexHandle(const PathHandle& path, std::int32_t depth, Subpath subpath);
     detail::Cursor& at() const;
     Recording* recording_;
@@ -48,6 +49,7 @@ class PathHandle {
   private:
     friend class Recording;
     friend class VertexHandle;
+    friend struct detail::BindingAccess;
     PathHandle(Recording& recording, Pixel pixel, std::int64_t sample, std::int32_t part)
         : recording_(&recording), pixel_(pixel), sample_(sample), part_(part) {}
     detail::Cursor& at() const;

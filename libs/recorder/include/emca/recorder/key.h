@@ -16,6 +16,15 @@ constexpr std::uint64_t hashKey(std::string_view text) {
     return hash;
 }
 
+/// Where a call stands.
+struct SourceLine {
+    const char* file = "";   ///< not copied: a literal
+    std::uint32_t line = 0;
+    constexpr SourceLine() = default;
+    constexpr SourceLine(const char* sourceFile, std::uint32_t sourceLine) : file(sourceFile), line(sourceLine) {}
+    constexpr SourceLine(std::source_location where) : file(where.file_name()), line(where.line()) {}
+};
+
 /// Name of a recorded quantity. A literal's hash and source line are known at compile time, so that a key of any
 /// length costs the same; a key made at run time (string_view, string) is hashed when it is built, even while nothing
 /// is recorded: prefer literals.
@@ -33,15 +42,19 @@ class Key {
     Key(const T& text, std::source_location where = std::source_location::current())
         : Key(std::string_view(text), where) {}
 
+    /// Of which all is known already: for bindings to other languages. \param hash  hashKey(text)
+    constexpr Key(std::string_view text, std::uint64_t hash, SourceLine where)
+        : text_(text.data()), size_(text.size()), hash_(hash), where_(where) {}
+
     constexpr std::string_view text() const { return {text_, size_}; }
     constexpr std::uint64_t hash() const { return hash_; }
-    constexpr const std::source_location& where() const { return where_; }
+    constexpr SourceLine where() const { return where_; }
 
   private:
     const char* text_;
     std::size_t size_;
     std::uint64_t hash_;
-    std::source_location where_;
+    SourceLine where_;
 };
 
 }  // namespace emca

@@ -89,6 +89,7 @@ class BasicPathRecorder {
 
   private:
     friend class RecordScope;
+    friend struct detail::BindingAccess;
     detail::Cursor* cursor_ = nullptr;
 };
 

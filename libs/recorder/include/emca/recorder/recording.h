@@ -15,6 +15,7 @@ namespace emca {
 
 namespace detail {
 class Cursor;
+struct BindingAccess;  // of other languages: libs/c
 }
 class PathHandle;
 

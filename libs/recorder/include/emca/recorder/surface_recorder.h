@@ -166,6 +166,11 @@ class SurfaceRecorder {
     /// values. Throws nothing; memory for the result comes on top of the budget.
     SurfaceField finish();
 
+    /// For renderers that collect 3D data in a way of their own: what finish() is to return, as it is, instead of what was
+    /// added. It holds the layers of layers(), in that order.
+    /// Errors: invalidArgument (other layers); protocolViolation (breaks a rule of validate()).
+    Result<void> setField(SurfaceField field);
+
     /// Complete after finish(), else as far as blocks have been applied. `bytesUsed` is always current.
     SurfaceCounts counts() const;
     const std::vector<LayerDescription>& layers() const;
