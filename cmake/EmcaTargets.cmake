@@ -19,16 +19,22 @@ if(EMCA_SANITIZE)
   target_link_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE})
 endif()
 
-# emca_add_library(NAME SOURCES... [PUBLIC targets] [PRIVATE targets] [TESTS files] [TEST_LIBRARIES targets])
-# Makes emca::NAME from libs/NAME, and the program NAME_test from its *_test.cpp files.
+# emca_add_library(NAME [SHARED] SOURCES... [PUBLIC targets] [PRIVATE targets] [TESTS files] [TEST_LIBRARIES targets])
+# Makes emca::NAME from libs/NAME, and the program NAME_test from its *_test.cpp files. SHARED: for languages that know
+# nothing of C++; its headers ask for no standard of that.
 function(emca_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LIBRARIES" ${ARGN})
-  add_library(emca_${name} STATIC ${arg_SOURCES})
+  cmake_parse_arguments(arg "SHARED" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LIBRARIES" ${ARGN})
+  if(arg_SHARED)
+    add_library(emca_${name} SHARED ${arg_SOURCES})
+    target_compile_features(emca_${name} PRIVATE cxx_std_20)
+  else()
+    add_library(emca_${name} STATIC ${arg_SOURCES})
+    target_compile_features(emca_${name} PUBLIC cxx_std_20)
+  endif()
   add_library(emca::${name} ALIAS emca_${name})
   set_target_properties(emca_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(emca_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_compile_features(emca_${name} PUBLIC cxx_std_20)
   target_link_libraries(emca_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:emca_flags>)
   if(EMCA_BUILD_TESTS AND arg_TESTS)
     emca_add_test(${name}_test SOURCES ${arg_TESTS} LIBRARIES emca::${name} ${arg_TEST_LIBRARIES})
