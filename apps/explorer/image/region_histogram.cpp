@@ -1,5 +1,8 @@
 #include "image/region_histogram.h"
 
+#include <QContextMenuEvent>
+#include <QKeyEvent>
+#include <QMenu>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
@@ -20,12 +23,14 @@ bool isLuminance(const RegionChannel& channel) { return channel.image.channel ==
 
 RegionHistogram::RegionHistogram(Theme& theme, QWidget* parent) : QWidget(parent), theme_(theme) {
     setMouseTracking(true);
+    setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     connect(&theme_, &Theme::themeChanged, this, qOverload<>(&QWidget::update));
 }
 
-void RegionHistogram::show(const RegionNumbers& numbers) {
+void RegionHistogram::show(const RegionNumbers& numbers, const QString& title) {
     channels_ = numbers.channels;
+    title_ = title;
     largest_ = 0;
     for (const RegionChannel& channel : channels_) {
         if (channel.image.channel == "A") continue;   // opaque everywhere: one bin with all pixels would hide the rest
@@ -39,7 +44,7 @@ void RegionHistogram::setLogCounts(bool log) {
     update();
 }
 
-QRectF RegionHistogram::plotArea() const { return QRectF(rect()).adjusted(8, 8, -8, -20); }
+QRectF RegionHistogram::plotArea() const { return QRectF(rect()).adjusted(8, exporting_ ? 28 : 8, -8, -20); }
 
 double RegionHistogram::height(std::uint64_t count) const {
     if (largest_ == 0) return 0;
@@ -93,13 +98,14 @@ void RegionHistogram::paintEvent(QPaintEvent*) {
         painter.setPen(QPen(c.text, 1.5, Qt::DashLine));
         painter.drawPolyline(outline(*channel.referenceHistogram, area));
     }
-    if (hovered_) {
+    if (hovered_ && !exporting_) {
         const double width = area.width() / double(binCount());
         QColor band = c.hover;
         band.setAlpha(45);
         painter.fillRect(QRectF(area.left() + width * double(*hovered_), area.top(), width, area.height()), band);
     }
     paintBeyond(painter, area);
+    if (exporting_) paintCaption(painter);
 }
 
 void RegionHistogram::paintAxis(QPainter& painter, const QRectF& area) const {
@@ -135,6 +141,77 @@ void RegionHistogram::paintBeyond(QPainter& painter, const QRectF& area) const {
     if (const std::uint64_t above = h.above + h.positiveInfinite) painter.drawText(line, Qt::AlignRight, tr("%1 brighter ▸").arg(grouped(above)));
     if (const std::uint64_t below = h.below + h.negativeInfinite)
         painter.drawText(line, Qt::AlignLeft, h.range.log ? tr("◂ %1 darker, or 0").arg(grouped(below)) : tr("◂ %1 darker").arg(grouped(below)));
+}
+
+/// A picture stands alone: what pixels, what quantity in what unit, and whose line is whose.
+void RegionHistogram::paintCaption(QPainter& painter) const {
+    const ThemeColors& c = theme_.colors();
+    painter.setFont(theme_.font());
+    const QFontMetricsF metrics(painter.font(), painter.device());
+    double right = width() - 8;
+    const auto write = [&](const QString& text, const QColor& color) {
+        right -= metrics.horizontalAdvance(text);
+        painter.setPen(color);
+        painter.drawText(QPointF(right, 18), text);
+        right -= 10;
+    };
+    for (auto channel = channels_.rbegin(); channel != channels_.rend(); ++channel) {
+        if (channel->image.channel == "A") continue;
+        if (isLuminance(*channel) && channel->referenceHistogram) write(tr("- - reference"), c.text);
+        write(toQString(channel->image.channel), colorOf(channel->image.channel));
+    }
+    painter.setPen(c.text);
+    painter.drawText(QPointF(8, 18), metrics.elidedText(tr("%1, W/(sr m²)").arg(title_), Qt::ElideRight, right - 8));
+}
+
+QString RegionHistogram::csv() const {
+    if (channels_.empty()) return {};
+    QString text = QStringLiteral("from,to");
+    std::vector<const analysis::Histogram*> columns;
+    for (const RegionChannel& channel : channels_) {
+        text += ',' + toQString(channel.image.channel);
+        columns.push_back(&channel.histogram);
+        if (!channel.referenceHistogram) continue;
+        text += QStringLiteral(",reference ") + toQString(channel.image.channel);
+        columns.push_back(&*channel.referenceHistogram);
+    }
+    const analysis::Histogram& first = *columns.front();
+    const auto full = [](double value) { return toQString(analysis::formatFull(value)); };
+    const auto line = [&](const QString& from, const QString& to, auto&& count) {
+        text += '\n' + from + ',' + to;
+        for (const analysis::Histogram* histogram : columns) text += ',' + QString::number(count(*histogram));
+    };
+    const auto below = [](const analysis::Histogram& h) { return h.below + h.negativeInfinite; };
+    const auto above = [](const analysis::Histogram& h) { return h.above + h.positiveInfinite; };
+    const auto nan = [](const analysis::Histogram& h) { return h.nan; };
+    const auto occurs = [&](auto&& count) { return std::ranges::any_of(columns, [&](const auto* h) { return count(*h) > 0; }); };
+    if (occurs(below)) line({}, full(first.range.min), below);
+    for (std::size_t bin = 0; bin < first.binCount(); ++bin)
+        line(full(first.lower(bin)), full(first.upper(bin)), [bin](const analysis::Histogram& h) { return h.counts[bin]; });
+    if (occurs(above)) line(full(first.range.max), {}, above);
+    if (occurs(nan)) line(QStringLiteral("NaN"), QStringLiteral("NaN"), nan);
+    return text + '\n';
+}
+
+Result<void> RegionHistogram::exportTo(const QString& file, int scale) { return writeExport(exporting(), file, scale); }
+
+PlotExport RegionHistogram::exporting() {
+    return {this, this, QStringLiteral("histogram"), [this](bool on) { exporting_ = on; },
+            [this] { return csv(); }, [this](const QString& sentence) { emit message(sentence); }};
+}
+
+bool RegionHistogram::event(QEvent* event) { return claimExportKeys(*event) || QWidget::event(event); }
+
+void RegionHistogram::keyPressEvent(QKeyEvent* event) {
+    if (handleExportKeys(*event, exporting())) event->accept();
+    else QWidget::keyPressEvent(event);
+}
+
+void RegionHistogram::contextMenuEvent(QContextMenuEvent* event) {
+    if (channels_.empty()) return;
+    QMenu menu(this);
+    addExportActions(menu, exporting());
+    menu.exec(event->globalPos());
 }
 
 QString RegionHistogram::describe(std::size_t bin) const {

@@ -267,7 +267,7 @@ void RegionPanel::compute() {
 void RegionPanel::take(RegionNumbers numbers) {
     computing_ = false;
     numbers_ = std::move(numbers);
-    histogram_->show(numbers_);
+    histogram_->show(numbers_, titleText());
     fillTable();
     showPaths();
 }

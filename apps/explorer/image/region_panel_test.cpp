@@ -5,10 +5,16 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QClipboard>
+#include <QContextMenuEvent>
+#include <QFile>
+#include <QImage>
 #include <QLabel>
+#include <QMenu>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTimer>
 #include <QToolButton>
 #include <limits>
 
@@ -136,6 +142,49 @@ TEST_F(RegionPanelTest, TheHistogramCountsEveryPixelAndGoesLogarithmic) {
     EXPECT_EQ(counted(), 4096u);
     EXPECT_EQ(panel.numbers().channels[0].histogram.below, 64u) << "0 has no logarithm";
     EXPECT_FALSE(panel.histogram().describe(0).isEmpty());
+}
+
+TEST_F(RegionPanelTest, TheHistogramIsExportedAsEveryPlotIs) {
+    auto image = ramp(64, 64);
+    image->color.setColor({3, 3}, {std::numeric_limits<float>::quiet_NaN(), 3, 1});
+    image->color.setColor({4, 3}, {1e6f, 3, 1});
+    show(image);
+    panel.setReference(ramp(64, 64, 2), "twice");
+    RegionHistogram& histogram = panel.histogram();
+    QSignalSpy said(&histogram, &RegionHistogram::message);
+    QTest::mouseClick(&histogram, Qt::LeftButton);
+    QTest::keyClick(&histogram, Qt::Key_C, Qt::ControlModifier);
+    const QStringList lines = QApplication::clipboard()->text().trimmed().split('\n');
+    EXPECT_EQ(said.count(), 1);
+    EXPECT_EQ(lines[0], "from\tto\tR\treference R\tG\treference G\tB\treference B\tluminance\treference luminance");
+    for (int column = 2; column < 10; ++column) {
+        int sum = 0;
+        for (const QString& line : lines.mid(1)) sum += line.split('\t')[column].toInt();
+        EXPECT_EQ(sum, 4096) << "each pixel once, in column " << column;
+    }
+    QTemporaryDir folder;
+    for (const int scale : {1, 2}) {
+        const QString file = folder.filePath(QStringLiteral("%1.png").arg(scale));
+        ASSERT_TRUE(histogram.exportTo(file, scale).ok());
+        EXPECT_EQ(QImage(file).size(), histogram.size() * scale);
+    }
+    ASSERT_TRUE(histogram.exportTo(folder.filePath("a.svg")).ok());
+    QFile drawing(folder.filePath("a.svg"));
+    ASSERT_TRUE(drawing.open(QIODevice::ReadOnly));
+    const QString text = QString::fromUtf8(drawing.readAll());
+    for (const char* part : {"Whole image", "luminance", "reference", "brighter"}) EXPECT_TRUE(text.contains(part)) << part << " is text";
+    EXPECT_FALSE(histogram.exportTo("/absent/a.png").ok());
+
+    QStringList offered;
+    QTimer::singleShot(0, [&] {
+        auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+        ASSERT_TRUE(menu);
+        for (QAction* action : menu->actions()) offered += action->text();
+        menu->close();
+    });
+    QContextMenuEvent click(QContextMenuEvent::Mouse, {20, 20}, histogram.mapToGlobal(QPoint(20, 20)));
+    QCoreApplication::sendEvent(&histogram, &click);
+    EXPECT_EQ(offered, (QStringList{"Copy values", "Copy picture", "Export"}));
 }
 
 TEST_F(RegionPanelTest, OneFireflyDoesNotFlattenTheHistogram) {

@@ -302,26 +302,13 @@ void ParallelPlot::showMenu(const QPoint& position, std::optional<std::size_t> a
 }
 
 PlotExport ParallelPlot::exporting() {
-    return {this, canvas_, QStringLiteral("parallel-coordinates"), [this](const QString& file, int scale) { return exportTo(file, scale); },
+    return {this, canvas_, QStringLiteral("parallel-coordinates"), [this](bool on) { canvas_->setExporting(on); },
             [this] { return csv(); }, [this](const QString& sentence) { emit message(sentence); }};
 }
 
-Result<void> ParallelPlot::exportTo(const QString& file, int scale) {
-    if (file.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive)) return exportText(csv(), file);
-    canvas_->setExporting(true);
-    Result<void> written = exportPicture(*canvas_, file, scale);
-    canvas_->setExporting(false);
-    return written;
-}
+Result<void> ParallelPlot::exportTo(const QString& file, int scale) { return writeExport(exporting(), file, scale); }
 
-bool ParallelPlot::event(QEvent* event) {
-    // Copying belongs to the view while it has the focus, whatever the window uses the keys for.
-    if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy)) {
-        event->accept();
-        return true;
-    }
-    return QWidget::event(event);
-}
+bool ParallelPlot::event(QEvent* event) { return claimExportKeys(*event) || QWidget::event(event); }
 
 void ParallelPlot::keyPressEvent(QKeyEvent* event) {
     if (handleExportKeys(*event, exporting())) event->accept();

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/listeners.h"
+#include "base/plot_export.h"
 #include "parallel/parallel_axes.h"
-#include "plots/plot_export.h"
 
 class QMenu;
 class QToolButton;

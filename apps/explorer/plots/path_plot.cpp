@@ -13,13 +13,13 @@
 #include "base/filter_menu.h"
 #include "base/grouped.h"
 #include "base/path_ids.h"
+#include "base/plot_export.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/table_text.h"
 #include "base/text_line.h"
 #include "emca/analysis/format.h"
 #include "plots/marginal_histogram.h"
-#include "plots/plot_export.h"
 
 namespace emca::explorer {
 
@@ -303,31 +303,18 @@ void PathPlot::showMenu(const Row& row, const QPoint& position, std::optional<st
 }
 
 PlotExport PathPlot::exporting() {
-    return {this, area_, rows_.front()->spec.axis.quantity, [this](const QString& file, int scale) { return exportTo(file, scale); },
+    return {this, area_, rows_.front()->spec.axis.quantity, [this](bool on) { for (const auto& row : rows_) row->plot->setExporting(on); },
             [this] { return csv(); }, [this](const QString& sentence) { emit message(sentence); }};
 }
 
-bool PathPlot::event(QEvent* event) {
-    // Copying belongs to the plot while it has the focus, whatever the window uses the keys for.
-    if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy)) {
-        event->accept();
-        return true;
-    }
-    return QWidget::event(event);
-}
+bool PathPlot::event(QEvent* event) { return claimExportKeys(*event) || QWidget::event(event); }
 
 void PathPlot::keyPressEvent(QKeyEvent* event) {
     if (handleExportKeys(*event, exporting())) event->accept();
     else QWidget::keyPressEvent(event);
 }
 
-Result<void> PathPlot::exportTo(const QString& file, int scale) {
-    if (file.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive)) return exportText(csv(), file);
-    for (const auto& row : rows_) row->plot->setExporting(true);
-    Result<void> written = exportPicture(*area_, file, scale);
-    for (const auto& row : rows_) row->plot->setExporting(false);
-    return written;
-}
+Result<void> PathPlot::exportTo(const QString& file, int scale) { return writeExport(exporting(), file, scale); }
 
 QString PathPlot::csv() const {
     const PathSet& paths = dataset_.paths();

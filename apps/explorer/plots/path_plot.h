@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/listeners.h"
+#include "base/plot_export.h"
 #include "emca/analysis/path_quantities.h"
 #include "emca/query/rules.h"
-#include "plots/plot_export.h"
 #include "plots/scatter_plot.h"
 
 class QToolButton;

@@ -1,4 +1,4 @@
-#include "plots/plot_export.h"
+#include "base/plot_export.h"
 
 #include <gtest/gtest.h>
 

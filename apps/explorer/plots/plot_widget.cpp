@@ -2,7 +2,7 @@
 
 #include <QApplication>
 #include <QClipboard>
-#include <QFileDialog>
+#include <QKeyEvent>
 #include <QMenu>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include "base/qt_compat.h"
 #include "emca/analysis/format.h"
 #include "plots/marginal_histogram.h"
-#include "plots/plot_export.h"
 #include "plots/scatter_plot.h"
 #include "plots/top_histogram.h"
 
@@ -161,13 +160,9 @@ QString PlotWidget::csv() const {
     return text;
 }
 
-Result<void> PlotWidget::exportTo(const QString& file) {
-    if (file.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive)) return exportText(csv(), file);
-    plot_->setExporting(true);
-    Result<void> written = exportPicture(*this, file);
-    plot_->setExporting(false);
-    return written;
-}
+Result<void> PlotWidget::exportTo(const QString& file) { return exportTo(file, 2); }
+
+Result<void> PlotWidget::exportTo(const QString& file, int scale) { return writeExport(exporting(), file, scale); }
 
 void PlotWidget::showMenu(const QPoint& position, std::optional<std::uint32_t> index) {
     QMenu menu(this);
@@ -177,11 +172,7 @@ void PlotWidget::showMenu(const QPoint& position, std::optional<std::uint32_t> i
         menu.addAction(tr("Copy value"), this, [text] { QApplication::clipboard()->setText(text); });
         menu.addSeparator();
     }
-    menu.addAction(tr("Copy all values as CSV"), this, [this] { QApplication::clipboard()->setText(csv()); });
-    QMenu* save = menu.addMenu(tr("Export"));
-    save->addAction(tr("PNG picture…"), this, [this] { askForFile("png", tr("PNG picture (*.png)")); });
-    save->addAction(tr("SVG drawing…"), this, [this] { askForFile("svg", tr("SVG drawing (*.svg)")); });
-    save->addAction(tr("CSV values…"), this, [this] { askForFile("csv", tr("CSV values (*.csv)")); });
+    addExportActions(menu, exporting());
     menu.addSeparator();
     if (plot_->yAxis().names.isEmpty()) {
         QAction* log = menu.addAction(tr("Logarithmic values"), this, &PlotWidget::changeLog);
@@ -192,11 +183,16 @@ void PlotWidget::showMenu(const QPoint& position, std::optional<std::uint32_t> i
     menu.exec(position);
 }
 
-void PlotWidget::askForFile(const QString& ending, const QString& filter) {
-    QString file = QFileDialog::getSaveFileName(this, tr("Export plot"), QString(), filter);
-    if (file.isEmpty()) return;
-    if (!file.endsWith(QLatin1Char('.') + ending, Qt::CaseInsensitive)) file += QLatin1Char('.') + ending;
-    if (const auto written = exportTo(file); !written) emit failed(toQString(written.error().message));
+PlotExport PlotWidget::exporting() {
+    return {this, this, plot_->yAxis().quantity, [this](bool on) { plot_->setExporting(on); },
+            [this] { return csv(); }, [this](const QString& sentence) { emit message(sentence); }};
+}
+
+bool PlotWidget::event(QEvent* event) { return claimExportKeys(*event) || QWidget::event(event); }
+
+void PlotWidget::keyPressEvent(QKeyEvent* event) {
+    if (handleExportKeys(*event, exporting())) event->accept();
+    else QWidget::keyPressEvent(event);
 }
 
 }  // namespace emca::explorer

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include "base/plot_export.h"
 #include "emca/explorer/plot.h"
 
 namespace emca::explorer {
@@ -34,6 +35,9 @@ class PlotWidget : public QWidget, public Plot {
     void onHover(std::function<void(std::optional<PlotPoint>)> hovered) override { hovered_ = std::move(hovered); }
     void onLog(std::function<void()> changed) override { logChanged_ = std::move(changed); }
     Result<void> exportTo(const QString& file) override;
+    /// \param scale  pixels of a PNG per pixel on screen
+    Result<void> exportTo(const QString& file, int scale);
+    PlotExport exporting();
 
     ScatterPlot& plot() { return *plot_; }
     TopHistogram& topHistogram() { return *top_; }
@@ -41,8 +45,12 @@ class PlotWidget : public QWidget, public Plot {
     QString csv() const;
 
   signals:
-    /// A file that a person named could not be written.
-    void failed(const QString& sentence);
+    /// What was copied or written, or why not.
+    void message(const QString& sentence);
+
+  protected:
+    bool event(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
   private:
     std::uint32_t indexOf(PlotPoint point) const;
@@ -51,7 +59,6 @@ class PlotWidget : public QWidget, public Plot {
     QString describe(std::uint32_t index) const;
     void changeLog();
     void showMenu(const QPoint& position, std::optional<std::uint32_t> index);
-    void askForFile(const QString& ending, const QString& filter);
 
     ScatterPlot* plot_;
     TopHistogram* top_;

@@ -17,8 +17,6 @@ set(EMCA_PLOTS_SOURCES
   plots/path_plot.h
   plots/plot_axis.cpp
   plots/plot_axis.h
-  plots/plot_export.cpp
-  plots/plot_export.h
   plots/plot_frame.cpp
   plots/plot_frame.h
   plots/plot_overlay.cpp

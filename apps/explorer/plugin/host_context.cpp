@@ -205,7 +205,7 @@ void HostContext::settingsChanged() { tell(settingListeners_); }
 
 Plot& HostContext::makePlot(QWidget* parent) {
     auto* plot = new PlotWidget(around_.theme, parent);
-    connect(plot, &PlotWidget::failed, this, &HostContext::sayError);
+    connect(plot, &PlotWidget::message, this, &HostContext::say);
     return *plot;
 }
 

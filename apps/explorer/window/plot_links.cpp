@@ -3,6 +3,8 @@
 #include <QApplication>
 #include <algorithm>
 
+#include "image/region_histogram.h"
+#include "image/region_panel.h"
 #include "parallel/parallel_plot.h"
 #include "paths/filter_panel.h"
 #include "paths/rule_row.h"
@@ -30,6 +32,7 @@ void linkPlots(MainWindow& window, Views& views, Toast& toast) {
     const auto say = [&toast](const QString& sentence) { toast.showRemark(sentence); };
     for (const Views::Plot& plot : views.plots) QObject::connect(plot.widget, &PathPlot::message, &window, say);
     QObject::connect(views.parallel, &ParallelPlot::message, &window, say);
+    QObject::connect(&views.region->histogram(), &RegionHistogram::message, &window, say);
     QObject::connect(views.parallel, &ParallelPlot::filterWanted, &window, [&](const std::vector<query::Rule>& rules, const QString& query) {
         addToFilter(*views.filter, rules, query);
         window.showDock(QStringLiteral("filter"));
@@ -43,6 +46,7 @@ void exportPlot(Views& views) {
         for (const Views::Plot& plot : views.plots)
             if (meant(*plot.widget, focused)) return askForExport(plot.widget->exporting());
         if (meant(*views.parallel, focused)) return askForExport(views.parallel->exporting());
+        if (meant(views.region->histogram(), focused)) return askForExport(views.region->histogram().exporting());
     }
 }
 

@@ -1,4 +1,4 @@
-#include "plots/plot_export.h"
+#include "base/plot_export.h"
 
 #include <QApplication>
 #include <QClipboard>
@@ -12,6 +12,7 @@
 #include <QSvgGenerator>
 #include <QWidget>
 #include <algorithm>
+#include <optional>
 
 #include "base/qt_compat.h"
 #include "base/table_text.h"
@@ -37,8 +38,49 @@ void say(const PlotExport& plot, const QString& sentence) {
     if (plot.say) plot.say(sentence);
 }
 
+/// Errors: fileUnwritable.
+Result<void> exportText(const QString& text, const QString& file) {
+    QSaveFile out(file);
+    if (!out.open(QIODevice::WriteOnly)) return unwritable(file, out.errorString());
+    out.write(text.toUtf8());
+    if (!out.commit()) return unwritable(file, out.errorString());
+    return {};
+}
+
+/// SVG (text and points stay shapes) by the ending .svg, else PNG. Errors: fileUnwritable.
+Result<void> exportPicture(QWidget& widget, const QString& file, int scale) {
+    QSaveFile out(file);
+    if (!out.open(QIODevice::WriteOnly)) return unwritable(file, out.errorString());
+    if (file.endsWith(QLatin1String(".svg"), Qt::CaseInsensitive)) {
+        QSvgGenerator generator;
+        generator.setOutputDevice(&out);
+        generator.setSize(widget.size());
+        generator.setViewBox(widget.rect());
+        // In the widget's own resolution, so that fonts keep their size.
+        generator.setResolution(widget.logicalDpiX());
+        QPainter painter(&generator);
+        widget.render(&painter);
+    } else {
+        const QImage image = pictureOf(widget, scale);
+        if (!image.save(&out, "PNG")) return unwritable(file, QStringLiteral("the picture could not be encoded"));
+    }
+    if (!out.commit()) return unwritable(file, out.errorString());
+    return {};
+}
+
+/// While it lives, the plot shows itself as in a picture.
+struct Posing {
+    explicit Posing(const PlotExport& exported) : plot(exported) { if (plot.setExporting) plot.setExporting(true); }
+    ~Posing() { if (plot.setExporting) plot.setExporting(false); }
+    Posing(const Posing&) = delete;
+    Posing& operator=(const Posing&) = delete;
+    const PlotExport& plot;
+};
+
+QWidget& pictured(const PlotExport& plot) { return plot.picture ? *plot.picture : *plot.view; }
+
 void write(const PlotExport& plot, const QString& file, int scale) {
-    const Result<void> written = plot.write(file, scale);
+    const Result<void> written = writeExport(plot, file, scale);
     say(plot, written ? QObject::tr("Wrote \"%1\"").arg(file) : toQString(written.error().message));
 }
 
@@ -72,7 +114,21 @@ void askForFile(const PlotExport& plot, const Format* only) {
     write(plot, file, format->scale);
 }
 
+enum class ExportKey { copy, ask };
+
+std::optional<ExportKey> keyOf(const QKeyEvent& event) {
+    if (event.matches(QKeySequence::Copy)) return ExportKey::copy;
+    if (event.key() == Qt::Key_P && event.modifiers() == (Qt::ControlModifier | Qt::ShiftModifier)) return ExportKey::ask;
+    return {};
+}
+
 }  // namespace
+
+Result<void> writeExport(const PlotExport& plot, const QString& file, int scale) {
+    if (file.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive)) return exportText(plot.csv(), file);
+    const Posing posing(plot);
+    return exportPicture(pictured(plot), file, scale);
+}
 
 void copyValues(const PlotExport& plot) {
     QApplication::clipboard()->setText(tabsFromCsv(plot.csv()));
@@ -84,7 +140,8 @@ void askForExport(const PlotExport& plot) { askForFile(plot, nullptr); }
 void addExportActions(QMenu& menu, const PlotExport& plot) {
     menu.addAction(QObject::tr("Copy values"), menu.parentWidget(), [plot] { copyValues(plot); }, QKeySequence::Copy);
     menu.addAction(QObject::tr("Copy picture"), menu.parentWidget(), [plot] {
-        QApplication::clipboard()->setImage(pictureOf(plot.picture ? *plot.picture : *plot.view, 2));
+        const Posing posing(plot);
+        QApplication::clipboard()->setImage(pictureOf(pictured(plot), 2));
         say(plot, QObject::tr("Copied a picture"));
     });
     QMenu* save = menu.addMenu(QObject::tr("Export"));
@@ -95,38 +152,16 @@ void addExportActions(QMenu& menu, const PlotExport& plot) {
 }
 
 bool handleExportKeys(const QKeyEvent& event, const PlotExport& plot) {
-    if (event.matches(QKeySequence::Copy)) copyValues(plot);
-    else if (event.key() == Qt::Key_P && event.modifiers() == (Qt::ControlModifier | Qt::ShiftModifier)) askForExport(plot);
-    else return false;
+    const std::optional<ExportKey> key = keyOf(event);
+    if (key == ExportKey::copy) copyValues(plot);
+    if (key == ExportKey::ask) askForExport(plot);
+    return key.has_value();
+}
+
+bool claimExportKeys(QEvent& event) {
+    if (event.type() != QEvent::ShortcutOverride || !keyOf(static_cast<QKeyEvent&>(event))) return false;
+    event.accept();
     return true;
-}
-
-Result<void> exportText(const QString& text, const QString& file) {
-    QSaveFile out(file);
-    if (!out.open(QIODevice::WriteOnly)) return unwritable(file, out.errorString());
-    out.write(text.toUtf8());
-    if (!out.commit()) return unwritable(file, out.errorString());
-    return {};
-}
-
-Result<void> exportPicture(QWidget& widget, const QString& file, int scale) {
-    QSaveFile out(file);
-    if (!out.open(QIODevice::WriteOnly)) return unwritable(file, out.errorString());
-    if (file.endsWith(QLatin1String(".svg"), Qt::CaseInsensitive)) {
-        QSvgGenerator generator;
-        generator.setOutputDevice(&out);
-        generator.setSize(widget.size());
-        generator.setViewBox(widget.rect());
-        // In the widget's own resolution, so that fonts keep their size.
-        generator.setResolution(widget.logicalDpiX());
-        QPainter painter(&generator);
-        widget.render(&painter);
-    } else {
-        const QImage image = pictureOf(widget, scale);
-        if (!image.save(&out, "PNG")) return unwritable(file, QStringLiteral("the picture could not be encoded"));
-    }
-    if (!out.commit()) return unwritable(file, out.errorString());
-    return {};
 }
 
 }  // namespace emca::explorer
