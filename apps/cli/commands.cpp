@@ -7,7 +7,7 @@ namespace emca::cli {
 std::span<const AddCommand> commands() {
     static constexpr AddCommand kCommands[] = {addInfoCommand, addRenderCommand, addPixelCommand, addScanCommand,
                                                addAssertCommand, addExportCommand, addLayersCommand,
-                                               addOutliersCommand, addStatsCommand, addDiffCommand};
+                                               addOutliersCommand, addStatsCommand, addDiffCommand, addDoctorCommand};
     return kCommands;
 }
 

@@ -15,5 +15,6 @@ void addOutliersCommand(CLI::App& app, Run& run);
 void addStatsCommand(CLI::App& app, Run& run);
 void addDiffCommand(CLI::App& app, Run& run);
 void addLayersCommand(CLI::App& app, Run& run);
+void addDoctorCommand(CLI::App& app, Run& run);
 
 }  // namespace emca::cli

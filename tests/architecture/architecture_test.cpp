@@ -30,9 +30,10 @@ const std::map<std::string, Rule>& rules() {
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
         {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "jpeglib.h", "dlfcn.h", "link.h"}}},
         {"libs/analysis", {{"core", "query", "analysis"}, {"boost/"}}},
+        {"libs/doctor", {{"core", "client", "analysis", "probe", "doctor"}, {"fmt/"}}},
         {"libs/render", {{"core", "recorder", "imageio", "probe", "render"}, {"embree3/", "embree4/", "tbb/", "pugixml.hpp", "zlib.h"}}},
         {"apps/render", {{"core", "recorder", "imageio", "probe", "render", "server", "adapter"}, {"CLI/", "fmt/", "unistd.h", "sys/ioctl.h"}}},
-        {"apps/cli", {{"core", "client", "query", "analysis", "imageio"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
+        {"apps/cli", {{"core", "client", "query", "analysis", "imageio", "doctor"}, {"CLI/", "fmt/", "nlohmann/", "unistd.h", "sys/"}}},
         {"apps/explorer", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q", "qwt", "vtk", "CLI/", "fmt/", "unistd.h", "fcntl.h", "signal.h"}}},
         {"plugins", {{"core", "client", "query", "analysis", "imageio", "probe", "explorer"}, {"Q"}}},
         // What they include of their renderers is theirs to say.

@@ -109,6 +109,7 @@ Result<std::unique_ptr<Connection>> Connection::open(const Address& address, Opt
 }
 
 const Address& Connection::address() const { return impl_->link->address(); }
+const Greeting& Connection::greeting() const { return impl_->link->greeting(); }
 bool Connection::isOpen() const { return impl_->link->isOpen(); }
 void Connection::close() { impl_->link->close(); }
 

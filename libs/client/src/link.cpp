@@ -143,6 +143,7 @@ Result<void> Link::greet(Clock::time_point deadline) {
         return Error{ErrorCode::versionMismatch, "The renderer at " + address_.text() + " wants to speak version " +
                                                      std::to_string(welcome->version) + " of the protocol, which this program does not know."};
     }
+    greeting_ = {welcome->software, welcome->version};
     if (welcome->maximumRequestBytes != 0) maximumRequestBytes_ = welcome->maximumRequestBytes;
     return {};
 }

@@ -34,6 +34,8 @@ class Link : public std::enable_shared_from_this<Link> {
     Result<void> open();
     bool isOpen() const { return open_; }
     const Address& address() const { return address_; }
+    /// Does not change after open().
+    const Greeting& greeting() const { return greeting_; }
     void close();
 
     /// Sends a request and waits until `handler` has its last message, or until failure, loss, silence or cancel.
@@ -64,6 +66,7 @@ class Link : public std::enable_shared_from_this<Link> {
 
     const Address address_;
     const Connection::Options options_;
+    Greeting greeting_;
     asio::io_context context_{1};
     asio::ip::tcp::socket socket_{context_};
     std::thread thread_;

@@ -115,6 +115,12 @@ struct Trace {
     std::optional<MatchCounts> matches;  ///< what the query found, where there was one
 };
 
+/// How a server introduced itself in the handshake.
+struct Greeting {
+    std::string software;            ///< what serves, e.g. "EMCA server"; may be empty
+    std::uint16_t version = 0;       ///< of the protocol (docs/protocol.md), the one both sides speak
+};
+
 /// Told while a request runs; calls come from the connection's own thread, so they must be quick.
 struct RequestObserver {
     std::function<void(double fraction)> progress;                                     ///< in [0, 1]
@@ -147,6 +153,7 @@ class Connection {
     Connection& operator=(const Connection&) = delete;
 
     const Address& address() const;
+    const Greeting& greeting() const;
     bool isOpen() const;
     /// Calls that wait in other threads return connectionLost. So does destruction; it must not come from a callback.
     void close();
