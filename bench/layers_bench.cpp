@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "emca/recorder/path_layers.h"
 #include "emca/render/image_renderer.h"
 #include "emca/render/scene_loader.h"
-#include "emca/render/surface_layers.h"
 
 namespace emca {
 namespace {
@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
     options.samplesPerPixel = static_cast<std::uint32_t>(number(2, 64));
     const render::ImageRenderer renderer(*scene);
     const std::vector<Mesh> meshes = (*scene)->meshes();
-    const std::vector<LayerDescription>& all = render::surfaceLayers();
+    const std::vector<LayerDescription>& all = pathLayers();
     const std::vector<std::vector<LayerDescription>> sets{{}, {all.front()}, all};
 
     std::vector<std::vector<double>> seconds(sets.size()), processor(sets.size()), ratios(sets.size());

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "emca/recorder/path_layers.h"
+
 namespace emca {
 
 namespace {
@@ -78,7 +80,7 @@ Result<RenderedImage> RendererAdapter::renderImage(const RenderSettings& setting
     return renderer_.renderImage(*options, callbacksTo(monitor));
 }
 
-std::vector<LayerDescription> RendererAdapter::surfaceLayers() const { return render::surfaceLayers(); }
+std::vector<LayerDescription> RendererAdapter::surfaceLayers() const { return pathLayers(); }
 
 Result<RenderedImage> RendererAdapter::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
                                                              RequestMonitor& monitor) {

@@ -106,7 +106,7 @@ Result<RenderedImage> ImageRenderer::renderImage(const RenderOptions& options, c
     const std::uint32_t tiles = columns * rows;
     std::atomic<std::uint64_t> done = 0;  // samples per pixel, summed over tiles
     std::atomic<bool> stop = false;
-    const std::optional<SurfaceLayers> layers = surface ? std::optional<SurfaceLayers>(*surface) : std::nullopt;
+    const std::optional<PathLayers> layers = surface ? std::optional<PathLayers>(*surface) : std::nullopt;
     std::vector<PixelSums> kept(layers ? std::size_t(width) * height : 0);
 
     tbb::task_arena arena(threads_);

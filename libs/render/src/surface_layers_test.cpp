@@ -38,7 +38,7 @@ SurfaceField collect(const std::shared_ptr<const Scene>& scene, const RenderOpti
                      Image* color = nullptr) {
     const std::vector<Mesh> meshes = scene->meshes();
     SurfaceRecorder recorder(meshes);
-    for (const LayerDescription& layer : surfaceLayers()) EXPECT_TRUE(recorder.addLayer(layer).ok());
+    for (const LayerDescription& layer : pathLayers()) EXPECT_TRUE(recorder.addLayer(layer).ok());
     const auto image = ImageRenderer(scene, threads).renderImage(options, {}, &recorder);
     EXPECT_TRUE(image.ok());
     if (color && image) *color = image->color;
