@@ -8,6 +8,7 @@
 #include "emca/client/session.h"
 #include "emca/core/seed_map.h"
 #include "emca/recorder/handles.h"
+#include "emca/recorder/path_layers.h"
 #include "emca/recorder/recorder.h"
 #include "emca/recorder/surface_recorder.h"
 #include "emca/server/server.h"
