@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -296,6 +297,29 @@ TEST(SurfaceRecorder, ARecorderMayEndBeforeItsThreads) {
     }
     first->record(5, 3);
     expectAll(*first, 15);
+}
+
+TEST(SurfaceRecorder, AFieldThatTheRendererCollectedItselfIsReturnedAsItIs) {
+    Collection source({grid(3)});
+    source.record(1000, 1);
+    const SurfaceField own = source.recorder.finish();
+    Collection c({grid(3)});
+    c.record(10, 2);
+    ASSERT_TRUE(c.recorder.setField(own).ok());
+    const SurfaceField returned = c.recorder.finish();
+    EXPECT_EQ(returned.meshes, own.meshes);
+    EXPECT_EQ(returned.counts, own.counts);
+    ASSERT_EQ(returned.layers.size(), own.layers.size());
+    EXPECT_TRUE(std::ranges::equal(returned.layers[1].values, own.layers[1].values));
+
+    SurfaceField fewer = own;
+    fewer.layers.pop_back();
+    EXPECT_EQ(c.recorder.setField(fewer).error().code, ErrorCode::invalidArgument);
+    SurfaceField other = own;
+    other.meshes[0].faceCount -= 1;
+    EXPECT_EQ(c.recorder.setField(other).error().code, ErrorCode::protocolViolation);
+    Collection smaller({grid(2)});
+    EXPECT_FALSE(smaller.recorder.setField(own).ok());
 }
 
 TEST(SurfaceRecorder, OneThreadGivesEqualBits) {
