@@ -120,15 +120,18 @@ class Assembler {
         }
     }
 
+    /// In alphabetical order: the order in which threads met them would differ from one replay to the next.
     void mergeStrings() {
-        std::unordered_map<std::string_view, std::uint32_t> known;
+        std::map<std::string_view, std::uint32_t> known;
+        for (const CursorImpl* cursor : cursors_)
+            for (const std::string& text : cursor->strings_.strings()) known.try_emplace(text);
+        for (auto& [text, index] : known) {
+            index = static_cast<std::uint32_t>(strings_.size());
+            strings_.emplace_back(text);
+        }
         for (const CursorImpl* cursor : cursors_) {
             std::vector<std::uint32_t>& moved = movedStrings_.emplace_back();
-            for (const std::string& text : cursor->strings_.strings()) {
-                const auto [it, added] = known.try_emplace(text, static_cast<std::uint32_t>(strings_.size()));
-                if (added) strings_.push_back(text);
-                moved.push_back(it->second);
-            }
+            for (const std::string& text : cursor->strings_.strings()) moved.push_back(known.find(text)->second);
         }
     }
 

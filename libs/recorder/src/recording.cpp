@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cassert>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -137,8 +138,14 @@ detail::Cursor& Recording::ofThisThread() {
 
 Result<PathSet> Recording::finish() {
     for (const auto& [thread, cursor] : impl_->ofThreads) cursor->endScope();
+    // Those of handles last, whichever thread came first: of a path that was recorded in both ways, the pieces are put
+    // together in this order.
+    const auto handles = [&](const CursorImpl* cursor) {
+        return std::ranges::any_of(impl_->ofThreads, [cursor](const auto& one) { return one.second == cursor; });
+    };
     std::vector<CursorImpl*> cursors;
     for (const auto& cursor : impl_->cursors) cursors.push_back(cursor.get());
+    std::stable_partition(cursors.begin(), cursors.end(), std::not_fn(handles));
     return detail::assemble(impl_->shared, cursors, impl_->stats);
 }
 

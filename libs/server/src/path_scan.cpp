@@ -1,39 +1,26 @@
 #include "path_scan.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 
+#include "batches.h"
 #include "match_keeper.h"
 
 namespace emca {
 
 namespace {
 
-/// Paths of one recording: enough that its making costs nothing, few enough that they stay in a cache.
+/// Paths of a batch: enough that making a recording costs nothing, few enough that they stay in a cache.
 constexpr std::uint32_t kPathsPerBatch = 512;
 /// No query takes longer on so few paths, unless somebody means harm.
 constexpr std::chrono::seconds kLongestEvaluation{30};
 
-/// Passes on what concerns the whole request, and swallows what a batch says of its own progress.
-class BatchMonitor final : public RequestMonitor {
-  public:
-    BatchMonitor(RequestMonitor& request, const std::atomic<bool>& failed) : request_(request), failed_(failed) {}
-    bool cancelled() const override { return failed_ || request_.cancelled(); }
-    void progress(double) override {}
-    void preview(PixelRect, const std::vector<Color>&) override {}
-    void beginPixel(Pixel pixel) override { request_.beginPixel(pixel); }
-    void endPixel(Pixel pixel) override { request_.endPixel(pixel); }
-
-  private:
-    RequestMonitor& request_;
-    const std::atomic<bool>& failed_;
-};
+Error wrongCount(std::size_t values, std::size_t pixels) {
+    return {ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values) + " values for " + std::to_string(pixels) + " pixels."};
+}
 
 class Scan {
   public:
@@ -51,12 +38,8 @@ class Scan {
     Result<ScanResult> run() {
         const auto wanted = static_cast<std::size_t>(std::max(1u, options_.threads));
         threads_ = std::max<std::size_t>(1, std::min(wanted, batchCount_));
-        std::vector<std::thread> others;
-        for (std::size_t i = 1; i < threads_; ++i) others.emplace_back([this] { work(); });
-        work();
-        for (std::thread& thread : others) thread.join();
-        if (thrown_) std::rethrow_exception(thrown_);
-        if (error_) return *error_;
+        const auto scanned = runBatches({batchCount_, options_.threads, [this](std::size_t batch, RequestMonitor& monitor) { return replay(batch, monitor); }}, monitor_);
+        if (!scanned) return scanned.error();
         result_.paths = keeper_.finish();
         result_.matches.omitted = result_.matches.matched - result_.paths.pathCount();
         result_.matches.missing.assign(missing_.begin(), missing_.end());
@@ -75,28 +58,7 @@ class Scan {
         return {columns.begin(), columns.end()};
     }
 
-    void work() noexcept {
-        try {
-            while (!failed_ && !monitor_.cancelled()) {
-                const std::size_t batch = nextBatch_++;
-                if (batch >= batchCount_) return;
-                if (auto done = replay(batch); !done) return fail(done.error());
-            }
-            if (monitor_.cancelled()) fail({ErrorCode::cancelled, "The scan was cancelled."});
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!thrown_) thrown_ = std::current_exception();
-            failed_ = true;
-        }
-    }
-
-    void fail(Error error) {
-        const std::lock_guard lock(mutex_);
-        if (!error_) error_ = std::move(error);
-        failed_ = true;
-    }
-
-    Result<void> replay(std::size_t batch) {
+    Result<void> replay(std::size_t batch, RequestMonitor& monitor) {
         const std::size_t first = batch * batchSize_, last = std::min(first + batchSize_, options_.pixels.size());
         const std::vector<Pixel> pixels(options_.pixels.begin() + static_cast<std::ptrdiff_t>(first),
                                         options_.pixels.begin() + static_cast<std::ptrdiff_t>(last));
@@ -106,21 +68,21 @@ class Scan {
         recorded.budgetBytes = options_.budgetBytes / 2 / threads_;
         recorded.locations = options_.locations;
         recorded.observer = options_.observer;
-        BatchMonitor monitor(monitor_, failed_);
         const auto replayed = replayPixels(renderer_, std::move(recorded), options_.settings, monitor);
         if (!replayed) return replayed.error();
         std::copy(replayed->values.begin(), replayed->values.end(), result_.values.begin() + static_cast<std::ptrdiff_t>(first));
-        return evaluate(batch, first, pixels, replayed->paths, replayed->stats);
+        return evaluate(batch, first, pixels, *replayed, monitor);
     }
 
-    Result<void> evaluate(std::size_t batch, std::size_t first, const std::vector<Pixel>& pixels, const PathSet& paths,
-                          const RecordingStats& stats) {
+    Result<void> evaluate(std::size_t batch, std::size_t first, const std::vector<Pixel>& pixels, const ScanResult& replayed,
+                          RequestMonitor& monitor) {
+        const PathSet& paths = replayed.paths;
         query::EvaluationLimits limits;
         const auto deadline = std::chrono::steady_clock::now() + kLongestEvaluation;
         bool late = false;
         limits.cancelled = [&] {
             late = std::chrono::steady_clock::now() > deadline;
-            return late || failed_ || monitor_.cancelled();
+            return late || monitor.cancelled();
         };
         auto matches = query_.select(paths, limits);
         if (late) return Error{ErrorCode::tooLarge, "The query takes more than 30 seconds for a few pixels: use a simpler one, or fewer samples."};
@@ -138,9 +100,9 @@ class Scan {
         result_.matches.matched += matches->paths.size();
         result_.matches.unknown += matches->unknown;
         note(matches->missing);
-        add(stats);
+        add(replayed.stats);
         keeper_.add(batch, paths, matches->paths);
-        monitor_.progress(static_cast<double>(++doneBatches_) / static_cast<double>(batchCount_));
+        ++doneBatches_;
         return {};
     }
 
@@ -164,8 +126,6 @@ class Scan {
     const ScanOptions& options_;
     RequestMonitor& monitor_;
     std::size_t batchSize_ = 1, batchCount_ = 0, threads_ = 1;
-    std::atomic<std::size_t> nextBatch_{0};
-    std::atomic<bool> failed_{false};
     std::vector<std::uint32_t> matched_;
     std::vector<Color> sums_;
 
@@ -174,14 +134,49 @@ class Scan {
     MatchKeeper keeper_;
     std::set<std::string> missing_;
     ScanResult result_;
-    std::optional<Error> error_;
-    std::exception_ptr thrown_;
     const std::vector<std::string> columns_;
 };
 
 }  // namespace
 
-Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor) {
+namespace {
+
+/// Nothing if what was recorded did not fit: then it depends on the order of threads what is missing.
+Result<std::optional<ScanResult>> tryOnThreads(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor,
+                                               unsigned threads) {
+    Recording recording(std::move(recorded));
+    const std::vector<Pixel>& pixels = recording.options().pixels;
+    ScanResult result;
+    result.values.resize(pixels.size());
+    const std::size_t batchSize = std::max(1u, kPathsPerBatch / std::max(1u, settings.samplesPerPixel));
+    const auto replay = [&](std::size_t batch, RequestMonitor& part) -> Result<void> {
+        const std::size_t first = batch * batchSize, last = std::min(first + batchSize, pixels.size());
+        const std::vector<Pixel> some(pixels.begin() + static_cast<std::ptrdiff_t>(first), pixels.begin() + static_cast<std::ptrdiff_t>(last));
+        const RecordScope scope(recording);
+        const auto values = renderer.renderPixels(some, settings, recording, part);
+        if (!values) return values.error();
+        if (values->size() != some.size()) return wrongCount(values->size(), some.size());
+        std::copy(values->begin(), values->end(), result.values.begin() + static_cast<std::ptrdiff_t>(first));
+        return {};
+    };
+    if (auto done = runBatches({(pixels.size() + batchSize - 1) / batchSize, threads, replay}, monitor); !done) return done.error();
+    auto paths = recording.finish();
+    if (!paths) return paths.error();
+    result.stats = recording.stats();
+    if (result.stats.droppedByBudget > 0) return std::optional<ScanResult>();
+    result.paths = std::move(paths).value();
+    return std::optional(std::move(result));
+}
+
+}  // namespace
+
+Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor,
+                                unsigned threads) {
+    if (threads > 1 && recorded.pixels.size() > 1) {
+        auto done = tryOnThreads(renderer, recorded, settings, monitor, threads);
+        if (!done) return done.error();
+        if (*done) return std::move(**done);
+    }
     Recording recording(std::move(recorded));
     const std::vector<Pixel>& pixels = recording.options().pixels;
     auto values = [&] {
@@ -189,10 +184,7 @@ Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, c
         return renderer.renderPixels(pixels, settings, recording, monitor);
     }();
     if (!values) return values.error();
-    if (values->size() != pixels.size()) {
-        return Error{ErrorCode::rendererFailed, "The renderer returned " + std::to_string(values->size()) + " values for " +
-                                                    std::to_string(pixels.size()) + " pixels."};
-    }
+    if (values->size() != pixels.size()) return wrongCount(values->size(), pixels.size());
     auto paths = recording.finish();
     if (!paths) return paths.error();
     ScanResult result;

@@ -35,7 +35,11 @@ struct ScanResult {
 
 /// Replays pixels into one recording. `recorded.pixels` are the pixels, each once, ascending; values, paths and stats of the
 /// result are filled in. Errors: those of the renderer.
-Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor);
+/// \param threads  call the renderer for a few pixels each; more than one only if it is concurrent and if no path of one
+///                 pixel reaches another. Values and paths are the same for any number: a recording puts paths into order,
+///                 and what does not fit into the budget is recorded again by one thread, so that the first pixels are kept.
+Result<ScanResult> replayPixels(Renderer& renderer, RecordingOptions recorded, const RenderSettings& settings, RequestMonitor& monitor,
+                                unsigned threads = 1);
 
 /// Replays pixels in batches, evaluates the query on each as soon as it is recorded, and keeps nothing but matches,
 /// counts and sums: memory does not grow with pixels or samples, but for what is kept. What is kept does not depend on

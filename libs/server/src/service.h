@@ -50,7 +50,7 @@ class Service final : private ToolHost {
     Answer answer(const std::shared_ptr<Request>&, const protocol::ToolRequest&);
     Result<std::vector<std::byte>> ask(const std::string& tool, std::span<const std::byte> request, RequestMonitor& monitor) override;
     Result<ScanResult> replay(const std::shared_ptr<Request>&, const ScanOptions& options);
-    Result<ScanResult> scan(const std::shared_ptr<Request>&, const std::string& query, ScanOptions options);
+    Result<ScanResult> scan(const std::shared_ptr<Request>&, const std::string& query, const ScanOptions& options);
 
     std::optional<protocol::Body> immediately(const protocol::Body& request) const;
     /// Where the layers that a render is to collect go; null if it asks for none.

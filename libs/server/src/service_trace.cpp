@@ -93,16 +93,13 @@ Result<ScanResult> Service::replay(const std::shared_ptr<Request>& request, cons
     recorded.locations = options.locations;
     recorded.observer = options.observer;
     JobMonitor monitor(request, false, observers());
-    return replayPixels(renderer_, std::move(recorded), options.settings, monitor);
+    return replayPixels(renderer_, std::move(recorded), options.settings, monitor, options.onePass ? 1 : options.threads);
 }
 
 /// Replays the pixels batch by batch, and keeps what the query finds.
-Result<ScanResult> Service::scan(const std::shared_ptr<Request>& request, const std::string& text, ScanOptions options) {
+Result<ScanResult> Service::scan(const std::shared_ptr<Request>& request, const std::string& text, const ScanOptions& options) {
     const auto query = query::Query::parse(text);
     if (!query) return query.error();
-    options.onePass = info_.pathsReachAnyPixel;
-    // Tools are told of one pixel at a time.
-    if (info_.concurrent && observers().empty()) options.threads = info_.threads ? info_.threads : std::thread::hardware_concurrency();
     JobMonitor monitor(request, false, observers());
     return scanPaths(renderer_, *query, options, monitor);
 }
@@ -130,7 +127,10 @@ Service::Answer Service::answer(const std::shared_ptr<Request>& request, const p
     options.budgetBytes = asked.budget == 0 ? options_.defaultBudget
                                             : std::min<std::uint64_t>(asked.budget, options_.maximumBudget);
     options.locations = asked.locations;
+    options.onePass = info_.pathsReachAnyPixel;
+    // Tools are told of one pixel at a time.
     if (!observers().empty()) options.observer = &observer;
+    else if (info_.concurrent) options.threads = info_.threads ? info_.threads : std::max(1u, std::thread::hardware_concurrency());
 
     const auto begin = std::chrono::steady_clock::now();
     auto done = asked.query.empty() ? replay(request, options) : scan(request, asked.query, options);

@@ -29,8 +29,8 @@ struct RendererInfo {
     bool concurrent = false;
     /// The same settings give the same bits, so that a replay can be exact.
     bool deterministic = true;
-    /// Threads that renderPixel may be called from at once for a query over many pixels; 0: as many as the machine has. Only
-    /// if `concurrent`.
+    /// Threads that renderPixels may be called from at once for one trace of several pixels; 0: as many as the machine has.
+    /// Only if `concurrent`.
     unsigned threads = 0;
     /// Paths may add to any pixel (light tracing, Metropolis): renderPixels does its work once for all pixels.
     bool pathsReachAnyPixel = false;
