@@ -1,0 +1,16 @@
+# Reads observed_names.s: writes the names as macros for wrapped_functions.cpp, and as --wrap options for the linker.
+# cmake -DASSEMBLY=... -DHEADER=... -DOPTIONS=... -P observed_names.cmake
+file(READ "${ASSEMBLY}" assembly)
+string(REGEX MATCHALL "\nemca_name_[a-z_]+:\n[ \t]*\\.quad[ \t]+[A-Za-z0-9_]+" definitions "${assembly}")
+set(header "// Made by observed_names.cmake.\n")
+set(options "")
+foreach(definition IN LISTS definitions)
+  string(REGEX MATCH "emca_name_([a-z_]+):\n[ \t]*\\.quad[ \t]+([A-Za-z0-9_]+)" ignored "${definition}")
+  string(APPEND header "#define EMCA_LAJOLLA_${CMAKE_MATCH_1} \"${CMAKE_MATCH_2}\"\n")
+  string(APPEND options "-Wl,--wrap=${CMAKE_MATCH_2}\n")
+endforeach()
+if(options STREQUAL "")
+  message(FATAL_ERROR "No name found in ${ASSEMBLY}: this assembly is of a kind that observed_names.cmake does not know.")
+endif()
+file(WRITE "${HEADER}" "${header}")
+file(WRITE "${OPTIONS}" "${options}")
