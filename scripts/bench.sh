@@ -4,11 +4,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${EMCA_BUILD_DIR:-build/release}
-cmake --build "$build" --target recorder_bench layers_bench surface_bench transfer_bench explorer_click_bench scene_bench
+cmake --build "$build" --target recorder_bench c_recorder_bench layers_bench surface_bench transfer_bench explorer_click_bench scene_bench
 
 medians=(--benchmark_repetitions=9 --benchmark_report_aggregates_only=true)
 echo "== recording, per intersection"
 "$build/bench/recorder_bench" "${medians[@]}" 2>/dev/null | grep -E 'median|Counters' || true
+echo "== recording through C beside C++, per intersection"
+"$build/bench/c_recorder_bench" "${medians[@]}" --benchmark_enable_random_interleaving=true 2>/dev/null | grep -E 'median|Counters' || true
 echo "== surface layers, per sample"
 "$build/bench/surface_bench" 2>/dev/null | grep -E 'threads' || true
 echo "== transfer of a pixel, 1024 x 8"
