@@ -32,26 +32,26 @@ constinit thread_local PathRecorder placedRecorder;
 PathRecorder& of(emca_recorder* recorder) { return *reinterpret_cast<PathRecorder*>(recorder); }
 emca_recorder* handle(PathRecorder& recorder) { return reinterpret_cast<emca_recorder*>(&recorder); }
 
-/// A key's length and hash, computed where this is its first use. Several threads may do so at once: they find the same.
+bool isKnown(emca_key& key) { return std::atomic_ref(key.hash).load(std::memory_order_acquire) != 0; }
+
+/// Of a known key.
 Key known(emca_key& key) {
-    std::uint64_t hash = std::atomic_ref(key.hash).load(std::memory_order_acquire);
-    std::uint32_t length = 0;
-    if (hash != 0) [[likely]] {
-        length = std::atomic_ref(key.length).load(std::memory_order_relaxed);
-    } else {
-        const std::string_view text(key.text);
-        length = static_cast<std::uint32_t>(text.size());
-        hash = hashKey(text);
-        std::atomic_ref(key.length).store(length, std::memory_order_relaxed);
-        std::atomic_ref(key.hash).store(hash, std::memory_order_release);
-    }
+    const std::uint32_t length = std::atomic_ref(key.length).load(std::memory_order_relaxed);
+    const std::uint64_t hash = std::atomic_ref(key.hash).load(std::memory_order_relaxed);
     return {std::string_view(key.text, length), hash, SourceLine(key.file == nullptr ? "" : key.file, key.line)};
 }
 
-bool usable(const emca_key* key, const char* function) {
-    if (key != nullptr && key->text != nullptr) [[likely]] return true;
-    countMisuse(function, "its key, or the key's text, is null.");
-    return false;
+/// A key's length and hash at its first use. Several threads may do so at once: they find the same. False if it is none.
+bool complete(emca_key* key, const char* function) {
+    if (key == nullptr || key->text == nullptr) {
+        countMisuse(function, "its key, or the key's text, is null.");
+        return false;
+    }
+    const std::string_view text(key->text);
+    const std::uint64_t hash = hashKey(text);
+    std::atomic_ref(key->length).store(static_cast<std::uint32_t>(text.size()), std::memory_order_relaxed);
+    std::atomic_ref(key->hash).store(hash == 0 ? 1 : hash, std::memory_order_release);
+    return true;
 }
 
 }  // namespace
@@ -108,19 +108,23 @@ void emca_add_contribution(emca_recorder* recorder, emca_color value, const char
 emca_key emca_make_key(const char* text) {
     const char* const given = text == nullptr ? "" : text;
     emca_key key = {given, nullptr, 0, 0, 0};
-    known(key);
+    complete(&key, __func__);
     return key;
 }
 
-#define EMCA_DATA(suffix, Type, stored)                                                              \
-    void emca_add_path_##suffix(emca_recorder* recorder, emca_key* key, Type value) {                \
-        if (recorder == nullptr || !usable(key, __func__)) return;                                   \
-        quiet([&] { of(recorder).addPathData(known(*key), stored); });                               \
-    }                                                                                                \
-    void emca_add_intersection_##suffix(emca_recorder* recorder, emca_key* key, Type value) {        \
-        if (recorder == nullptr || !usable(key, __func__)) return;                                   \
-        quiet([&] { of(recorder).addIntersectionData(known(*key), stored); });                       \
+// What is rare is a function of its own, so that the common way needs no room on the stack.
+#define EMCA_CALL(name, record, suffix, Type, stored)                                                             \
+    [[gnu::noinline, gnu::cold]] static void name##suffix##_first(emca_recorder* recorder, emca_key* key, Type value) { \
+        if (complete(key, #name #suffix)) name##suffix(recorder, key, value);                                     \
+    }                                                                                                             \
+    void name##suffix(emca_recorder* recorder, emca_key* key, Type value) {                                       \
+        if (recorder == nullptr) return;                                                                          \
+        if (key == nullptr || !isKnown(*key)) [[unlikely]] return name##suffix##_first(recorder, key, value);     \
+        quiet([&] { of(recorder).record(known(*key), stored); });                                                 \
     }
+#define EMCA_DATA(suffix, Type, stored)                                 \
+    EMCA_CALL(emca_add_path_, addPathData, suffix, Type, stored)        \
+    EMCA_CALL(emca_add_intersection_, addIntersectionData, suffix, Type, stored)
 EMCA_DATA(bool, bool, value)
 EMCA_DATA(int, int64_t, std::int64_t(value))
 EMCA_DATA(int2, emca_vec2i, (Vec2i{value.x, value.y}))
@@ -135,14 +139,15 @@ EMCA_DATA(color, emca_color, color(value))
 EMCA_DATA(color_a, emca_color_a, (ColorA{value.r, value.g, value.b, value.a}))
 EMCA_DATA(text, const char*, std::string_view(value == nullptr ? "" : value))
 #undef EMCA_DATA
+#undef EMCA_CALL
 
 void emca_add_path_spectrum(emca_recorder* recorder, emca_key* key, const float* values, size_t count) {
-    if (recorder == nullptr || !usable(key, __func__)) return;
+    if (recorder == nullptr || ((key == nullptr || !isKnown(*key)) && !complete(key, __func__))) return;
     if (values == nullptr && count > 0) return countMisuse(__func__, "its values are null.");
     quiet([&] { of(recorder).addPathData(known(*key), std::span<const float>(values, count)); });
 }
 void emca_add_intersection_spectrum(emca_recorder* recorder, emca_key* key, const float* values, size_t count) {
-    if (recorder == nullptr || !usable(key, __func__)) return;
+    if (recorder == nullptr || ((key == nullptr || !isKnown(*key)) && !complete(key, __func__))) return;
     if (values == nullptr && count > 0) return countMisuse(__func__, "its values are null.");
     quiet([&] { of(recorder).addIntersectionData(known(*key), std::span<const float>(values, count)); });
 }
