@@ -206,7 +206,14 @@ Finding CameraRays::finding() const {
     const double median = quantileOf(off, 0.5), most = quantileOf(off, 0.95);
     finding.add("medianDeviation", median);
     finding.add("deviation95", most);
-    if (most <= kTolerance) {
+    const Variant* better = nullptr;
+    const std::vector<Variant> others = variants(camera_, width_, height_);
+    for (const Variant& variant : others) {
+        // In a small image, a wrong camera is not many pixels off; but a right one is much nearer.
+        const double deviation = most > 1 ? quantileOf(deviations(variant.camera), 0.95) : most;
+        if (!better && deviation <= kTolerance && deviation < most / 2) better = &variant;
+    }
+    if (most <= kTolerance && !better) {
         finding.sentence = fmt::format("The first segments of {} begin where the camera puts their pixels: 95 % within {} pixels.", counted(rays_.size(), "path"), formatNumber(most));
         return finding;
     }
@@ -214,9 +221,8 @@ Finding CameraRays::finding() const {
     const std::string sentence = fmt::format("By the camera, first segments of paths belong to other pixels: half of them {}.",
                                              median == std::numeric_limits<double>::max() ? "are behind it" : fmt::format("are more than {} pixels off", formatNumber(median))) +
                                  (behind ? " Some are behind it." : "");
-    for (const Variant& variant : variants(camera_, width_, height_)) {
-        if (quantileOf(deviations(variant.camera), 0.95) > kTolerance) continue;
-        finding.complain(Outcome::failed, fmt::format("{} {}.", sentence, variant.what), variant.advice);
+    if (better) {
+        finding.complain(Outcome::failed, fmt::format("{} {}.", sentence, better->what), better->advice);
         return finding;
     }
     finding.complain(Outcome::warning, sentence, "The 3D view will show another view than the image. Is the image cropped, or the lens shifted? Then nothing can be done; else look at position, direction, up and field of view.");

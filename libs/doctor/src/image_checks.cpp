@@ -73,7 +73,7 @@ void checkRepeated(Finding& finding, const ImageDifference& difference, bool det
     }
     finding.pixels.insert(finding.pixels.begin(), {difference.worst, "differs between two renders"});
     finding.complain(deterministic ? Outcome::failed : Outcome::warning,
-                     fmt::format("{} of {} differ between two renders with the same settings, by {} at most (relative), in {}{}.", counted(difference.different, "pixel"), difference.pixels,
+                     fmt::format("{} of {} differ between two renders with the same settings, by {} at most (relative), in {}{}.", difference.different, counted(difference.pixels, "pixel"),
                                  analysis::formatNumber(difference.largest), analysis::formatPixel(difference.worst), deterministic ? "" : "; the renderer says so itself"),
                      "Seed each sample by its pixel and index (SeedMap), never by thread, tile or time, and add up a pixel's samples in the order of their indices. Until then a replayed pixel is another one.");
 }

@@ -8,9 +8,8 @@
 #include "words.h"
 
 namespace emca::doctor {
-namespace {
 
-const char* adviceFor(ErrorCode code) {
+std::string adviceFor(ErrorCode code) {
     switch (code) {
         case ErrorCode::connectionLost:
             return "The renderer's process ended, or closed the connection: look at what it printed, run it in a debugger, and ask for this check alone (--only).";
@@ -23,8 +22,6 @@ const char* adviceFor(ErrorCode code) {
         default: return "";
     }
 }
-
-}  // namespace
 
 Deadline::Deadline(double seconds, std::shared_ptr<std::atomic<bool>> person) {
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));

@@ -99,6 +99,8 @@ class Patient {
     std::unique_ptr<Replays> replays_;
 };
 
+/// What to do about an error; may be empty.
+std::string adviceFor(ErrorCode code);
 /// A check that could not be made as a request failed.
 Finding broken(std::string check, const Error& error);
 /// A check that has nothing to look at.

@@ -79,7 +79,7 @@ Finding checkReplay(Patient& patient) {
     if (counts.unknown > 0)
         finding.complain(Outcome::warning, fmt::format("{} could not be compared with the image.", counted(counts.unknown, "pixel")), "Could the image be rendered? See the check image.");
     if (replays.failures > 0) {
-        finding.complain(Outcome::failed, fmt::format("{} could not be replayed; the first, {}: {}", counted(replays.failures, "pixel"), formatPixel(replays.failedPixel), replays.error->message), "");
+        finding.complain(Outcome::failed, fmt::format("{} could not be replayed; the first, {}: {}", counted(replays.failures, "pixel"), formatPixel(replays.failedPixel), replays.error->message), adviceFor(replays.error->code));
         finding.pixels.push_back({replays.failedPixel, "could not be replayed"});
     }
     return finding;

@@ -32,7 +32,8 @@ Finding checkHandshake(Patient& patient) {
     std::vector<double> times;
     for (int i = 0; i < 5; ++i) {  // the first answer may have loaded the scene
         const auto begin = Clock::now();
-        static_cast<void>(patient.connection().info());
+        const auto info = patient.connection().info();
+        if (!info && info.error().code != ErrorCode::rendererFailed) return broken("handshake", info.error());
         times.push_back(secondsSince(begin));
     }
     const client::Greeting& greeting = patient.connection().greeting();

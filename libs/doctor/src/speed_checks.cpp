@@ -23,7 +23,7 @@ struct ReplayTimes {
         client::TraceOptions all = patient.traceOptions(), few = all;
         few.columns = {"estimate"};
         const auto begin = Clock::now();
-        for (int turn = 0; turn < 7 && (turn < 3 || secondsSince(begin) < 10); ++turn)
+        for (int turn = 0; turn < 7 && (turn < 3 || secondsSince(begin) < 5); ++turn)
             for (const bool full : {turn % 2 == 0, turn % 2 != 0}) {
                 const auto trace = patient.connection().tracePixels(pixels, full ? all : few, patient.watch(turn / 7.0, (turn + 1) / 7.0));
                 if (!trace) return void(error = trace.error());
@@ -64,8 +64,8 @@ Finding checkOverhead(Patient& patient) {
     finding.sentence = fmt::format("The image takes {} (median of {}), {} a sample on all its threads; a replayed pixel {} a sample with everything recorded, {} with final estimates alone (x {}).", formatDuration(image),
                                    patient.imageSeconds.size(), formatDuration(rendering), formatDuration(recording), formatDuration(estimates), analysis::formatNumber(recording / std::max(estimates, 1e-12)));
     const double pixel = recording * patient.samples();
-    if (pixel > image / 2 && pixel > 0.25 && imagePixels > 1000 && !replays.paths.hasSplats())
-        finding.complain(Outcome::warning, fmt::format("One pixel takes {}, as long as a large part of the image.", formatDuration(pixel)), "Does renderPixel render more than the pixel, or load the scene again?");
+    if (pixel > image && pixel > 0.02 && imagePixels >= 256 && !replays.paths.hasSplats())
+        finding.complain(Outcome::warning, fmt::format("One pixel takes {}, longer than the whole image.", formatDuration(pixel)), "Does renderPixel render more than the pixel, or load the scene again?");
     else if (recording > 20 * estimates && recording * imagePixels > 20 * image / perSample)
         finding.complain(Outcome::warning, "Recording costs much more than rendering.", "Record costly values by a callable, and keys as constants; is a string built for each value?");
     return finding;

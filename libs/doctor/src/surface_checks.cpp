@@ -33,7 +33,8 @@ constexpr double kRounding = 1e-6;
 /// are turned against each other a little: an arc of height h and turn theta bulges by about h theta / 8 (the sagitta).
 class SurfaceCheck::Curvature {
   public:
-    explicit Curvature(const Mesh& mesh) : mesh_(mesh) {
+    /// \param size  of the mesh, its diagonal
+    Curvature(const Mesh& mesh, double size) : mesh_(mesh), cell_(size > 0 ? 1e-6 * size : 1) {
         for (std::size_t face = 0; face < mesh.triangles.size(); ++face)
             for (int i = 0; i < 3; ++i) edges_[key(face, i)].push_back(static_cast<std::uint32_t>(face));
     }
@@ -56,6 +57,19 @@ class SurfaceCheck::Curvature {
         return sum / 4;  // both directions, and twice the estimate
     }
 
+    /// Triangles without area (a sphere has some around its poles) that stand for a part of the shape all the same: who
+    /// shares an edge with them. Of others nobody.
+    std::vector<std::uint32_t> insteadOf(std::size_t face) const {
+        std::vector<std::uint32_t> others;
+        const Corners c = cornersOf(mesh_, face);
+        const double longest = std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
+        if (length(cross(c[1] - c[0], c[2] - c[0])) > 1e-5 * longest * longest) return others;
+        for (int i = 0; i < 3; ++i)
+            for (const std::uint32_t other : edges_.at(key(face, i)))
+                if (other != face) others.push_back(other);
+        return others;
+    }
+
     /// Where an edge belongs to one triangle, a disc may reach beyond it.
     double overhang(std::size_t face, int edge) const {
         if (edge < 0 || edges_.at(key(face, edge)).size() != 1) return 0;
@@ -64,15 +78,16 @@ class SurfaceCheck::Curvature {
     }
 
   private:
-    /// By positions: meshes often split vertices along seams.
-    using Key = std::array<float, 6>;
+    /// By positions, rounded: meshes often split vertices along seams.
+    using Key = std::array<std::int64_t, 6>;
     Key key(std::size_t face, int i) const {
         const Triangle& t = mesh_.triangles[face];
         const auto place = [&](int corner) {
             const Vec3f p = mesh_.positions[t[corner]];
-            return std::array<float, 3>{p.x + 0.f, p.y + 0.f, p.z + 0.f};
+            const auto rounded = [&](float x) { return std::isfinite(x) ? static_cast<std::int64_t>(std::llround(std::clamp(double(x) / cell_, -1e18, 1e18))) : 0; };
+            return std::array<std::int64_t, 3>{rounded(p.x), rounded(p.y), rounded(p.z)};
         };
-        std::array<float, 3> a = place(i), b = place((i + 1) % 3);
+        std::array<std::int64_t, 3> a = place(i), b = place((i + 1) % 3);
         if (b < a) std::swap(a, b);
         return {a[0], a[1], a[2], b[0], b[1], b[2]};
     }
@@ -81,6 +96,7 @@ class SurfaceCheck::Curvature {
         return normalize(cross(c[1] - c[0], c[2] - c[0]));
     }
     const Mesh& mesh_;
+    const double cell_;
     std::map<Key, std::vector<std::uint32_t>> edges_;
 };
 
@@ -131,9 +147,14 @@ void SurfaceCheck::place(const PathSet& paths, Index vertex, PathSet::Surface su
     if (distance <= kTolerance * sizes_[mesh] + rounding) return;
     const std::string name = analysis::surfaceName(surface, meshes_);
     auto& curvature = curvatures_[mesh];
-    if (!curvature) curvature = std::make_unique<Curvature>(meshes_[mesh]);
-    if (distance <= curvature->bulge(face) + curvature->overhang(face, nearest.edge) + kTolerance * sizes_[mesh] + rounding)
-        return note(curved_, distance, paths, vertex, name);
+    if (!curvature) curvature = std::make_unique<Curvature>(meshes_[mesh], sizes_[mesh]);
+    const double tolerance = kTolerance * sizes_[mesh] + rounding;
+    bool curved = distance <= curvature->bulge(face) + curvature->overhang(face, nearest.edge) + tolerance;
+    for (const std::uint32_t other : curvature->insteadOf(face)) {
+        const Corners o = cornersOf(meshes_[mesh], other);
+        curved = curved || length(p - nearestPoint(p, o[0], o[1], o[2]).point) <= curvature->bulge(other) + tolerance;
+    }
+    if (curved) return note(curved_, distance, paths, vertex, name);
     note(distance <= kOffsetTolerance * sizes_[mesh] + rounding ? slightly_ : off_, distance, paths, vertex, name);
 }
 
