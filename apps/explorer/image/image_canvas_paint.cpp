@@ -116,12 +116,12 @@ void ImageCanvas::paintNumbers(QPainter& painter, const QRect& area, const Pictu
 }
 
 void ImageCanvas::paintInvalid(QPainter& painter, const InvalidPixels& invalid) {
-    if (transform_.zoom() > kRingZoom || invalid.count() == 0) return;
+    if (transform_.zoom() > kRingZoom || invalid.marked.empty()) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
     const auto mark = analysis::kNaNColor;
-    for (const Pixel pixel : invalid.pixels) {
-        const QPointF centre = transform_.rectOf(pixel).center();
+    for (const analysis::FaultyPixel& found : invalid.marked) {
+        const QPointF centre = transform_.rectOf(found.pixel).center();
         if (!QRectF(rect()).adjusted(-8, -8, 8, 8).contains(centre)) continue;
         painter.setPen(QPen(QColor(0, 0, 0, 160), 3));
         painter.drawEllipse(centre, 5.5, 5.5);

@@ -117,7 +117,7 @@ void ImageHeader::referenceChosen(int index) {
 }
 
 void ImageHeader::showInvalid() {
-    const InvalidPixels& found = model_.front().invalid();
+    const analysis::FaultCounts& found = model_.front().invalid().counts;
     QStringList words;
     if (found.nan) words += tr("%1 NaN").arg(found.nan);
     if (found.infinite) words += tr("%1 infinite").arg(found.infinite);

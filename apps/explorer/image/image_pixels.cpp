@@ -48,28 +48,14 @@ QImage wrap(const std::shared_ptr<std::vector<std::uint8_t>>& rgba, int width, i
                   [](void* p) { delete static_cast<std::shared_ptr<std::vector<std::uint8_t>>*>(p); }, owner);
 }
 
+InvalidPixels findInvalid(const Image& image, const ImageStyle& style) {
+    const analysis::FaultRules rules = faultRules(style);
+    return {analysis::faultyPixels(image, InvalidPixels::kMarked, rules), analysis::countFaults(image, rules)};
+}
+
 }  // namespace
 
-InvalidPixels findInvalid(const Image& image, bool negativeIsInvalid) {
-    InvalidPixels found;
-    const std::size_t stride = image.channelCount(), colors = std::min<std::size_t>(stride, 3);
-    if (colors == 0) return found;
-    const float* value = image.data();
-    const std::size_t count = image.size() / stride;
-    for (std::size_t i = 0; i < count; ++i, value += stride) {
-        bool nan = false, infinite = false, negative = false;
-        for (std::size_t c = 0; c < colors; ++c) {
-            nan = nan || std::isnan(value[c]);
-            infinite = infinite || std::isinf(value[c]);
-            negative = negative || (negativeIsInvalid && value[c] < 0);
-        }
-        if (!nan && !infinite && !negative) continue;
-        (nan ? found.nan : infinite ? found.infinite : found.negative) += 1;
-        if (found.pixels.size() < InvalidPixels::kListed)
-            found.pixels.push_back({static_cast<std::uint32_t>(i % image.width()), static_cast<std::uint32_t>(i / image.width())});
-    }
-    return found;
-}
+analysis::FaultRules faultRules(const ImageStyle& style) { return {.channels = 3, .negative = style.negativeIsInvalid}; }
 
 Picture::Picture(std::uint32_t width, std::uint32_t height) {
     std::uint32_t w = width, h = height;
@@ -150,7 +136,7 @@ void ImagePixels::set(std::shared_ptr<const Image> image, const ImageStyle& styl
         invalid_ = {};
         emit pictureChanged();
     } else if (pixelCount(*image_) <= kQuickPixels) {
-        if (!sameImage) invalid_ = findInvalid(*image_, style_.negativeIsInvalid);
+        if (!sameImage) invalid_ = findInvalid(*image_, style_);
         convertHere();
     } else if (changes) {
         if (!sameImage) invalid_ = {};
@@ -205,7 +191,7 @@ void ImagePixels::convertElsewhere() {
     pool_.start(QRunnable::create([this, image = image_, style = style_, generation = generation_] {
         Picture picture(image->width(), image->height());
         picture.convert(*image, style, 0, image->height());
-        auto invalid = findInvalid(*image, style.negativeIsInvalid);
+        auto invalid = findInvalid(*image, style);
         QMetaObject::invokeMethod(this, [this, generation, picture, invalid = std::move(invalid)] {
             if (generation != generation_) return;
             running_ = 0;

@@ -9,18 +9,19 @@
 #include <memory>
 #include <vector>
 
+#include "emca/analysis/image_metrics.h"
 #include "image/image_display.h"
 
 namespace emca::explorer {
 
 /// Pixels that are no radiance.
 struct InvalidPixels {
-    static constexpr std::size_t kListed = 1000;
-    std::vector<Pixel> pixels;                        ///< the first `kListed`, in reading order
-    std::size_t nan = 0, infinite = 0, negative = 0;  ///< how many there are
-    std::size_t count() const { return nan + infinite + negative; }
+    static constexpr std::size_t kMarked = 1000;      ///< more rings would hide the image
+    std::vector<analysis::FaultyPixel> marked;        ///< the first ones in reading order
+    analysis::FaultCounts counts;
 };
-InvalidPixels findInvalid(const Image& image, bool negativeIsInvalid = true);
+/// Which channels a style looks at, and whether negative ones are wrong there.
+analysis::FaultRules faultRules(const ImageStyle& style);
 
 /// A picture and the same at half, a quarter, … of its size, averaged, for zooms below 1. They share memory with their
 /// copies, may be made by any thread, and are drawn by the GUI thread.

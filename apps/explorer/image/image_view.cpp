@@ -183,13 +183,11 @@ void ImageView::showValues() {
 }
 
 void ImageView::goToNextInvalid() {
-    const auto& pixels = model_->front().invalid().pixels;
-    if (pixels.empty()) return;
-    const auto from = selection_.state().pixel;
-    auto next = from ? std::upper_bound(pixels.begin(), pixels.end(), *from) : pixels.begin();
-    if (next == pixels.end()) next = pixels.begin();
-    selection_.setPixel(*next);
-    canvas_->focusOn(*next);
+    const ImagePixels& front = model_->front();
+    const auto next = front.image() ? analysis::nextFault(*front.image(), selection_.state().pixel, faultRules(front.style())) : std::nullopt;
+    if (!next) return;
+    selection_.setPixel(next->pixel);
+    canvas_->focusOn(next->pixel);
 }
 
 void ImageView::focusSelection() {

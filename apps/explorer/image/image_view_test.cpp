@@ -163,6 +163,20 @@ TEST_F(ImageViewTest, InvalidPixelsAreCountedMarkedAndVisited) {
     }
 }
 
+TEST_F(ImageViewTest, EveryInvalidPixelIsVisitedHoweverManyThereAre) {
+    auto entry = entryOf(60, 40, 0.5f);
+    auto image = std::make_shared<RenderedImage>(*entry.image);
+    for (std::uint32_t y = 0; y < 40; ++y)
+        for (std::uint32_t x = 0; x < 50; ++x) image->color.setColor({x, y}, Color(std::numeric_limits<float>::quiet_NaN()));
+    entry.image = image;
+    dataset.addImage(entry);
+    EXPECT_EQ(view.findChild<QToolButton*>("invalid")->text(), "2000 NaN");
+    for (std::uint32_t i = 0; i <= 2000; ++i) {
+        QTest::keyClick(&canvas(), Qt::Key_N);
+        ASSERT_EQ(selection.state().pixel, (Pixel{i % 50, i / 50 % 40}));
+    }
+}
+
 TEST_F(ImageViewTest, FalseColourFindsItsRangeAndPaintsTheMap) {
     auto entry = entryOf(100, 10, 0.f);
     auto image = std::make_shared<RenderedImage>(*entry.image);

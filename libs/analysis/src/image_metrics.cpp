@@ -157,20 +157,58 @@ std::vector<ChannelStatistics> imageStatistics(const Image& image, std::span<con
     return statisticsOf(image, [&](ChannelChoice channel) { return regionValues(image, channel, pixels); });
 }
 
-std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum) {
+namespace {
+
+std::optional<PixelFault> faultOf(std::span<const float> values, const FaultRules& rules) {
+    const auto any = [&](auto test) { return std::any_of(values.begin(), values.end(), test); };
+    if (!any([&](float v) { return !std::isfinite(v) || (rules.negative && v < 0); })) return {};
+    if (any([](float v) { return std::isnan(v); })) return PixelFault::nan;
+    return any([](float v) { return std::isinf(v); }) ? PixelFault::infinite : PixelFault::negative;
+}
+
+/// Calls found(pixel) for faulty pixels in reading order from number `first` to before `last`, until it says false.
+template <typename Found>
+void visitFaults(const Image& image, const FaultRules& rules, std::size_t first, std::size_t last, const Found& found) {
+    const std::size_t stride = image.channelCount(), channels = std::min<std::size_t>(stride, rules.channels);
+    for (std::size_t i = first; i < last; ++i) {
+        const auto fault = faultOf({image.data() + i * stride, channels}, rules);
+        if (fault && !found(FaultyPixel{{static_cast<std::uint32_t>(i % image.width()), static_cast<std::uint32_t>(i / image.width())}, *fault})) return;
+    }
+}
+
+std::size_t pixelCount(const Image& image) { return std::size_t(image.width()) * image.height(); }
+
+}  // namespace
+
+std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum, const FaultRules& rules) {
     std::vector<FaultyPixel> result;
-    const std::uint32_t channels = image.channelCount();
-    forEachPixel(clipped(image, {}), [&](Pixel p) {
-        if (result.size() >= maximum) return;
-        const std::span<const float> values(image.at(p), channels);
-        const auto any = [&](auto test) { return std::any_of(values.begin(), values.end(), test); };
-        if (any([](float v) { return std::isnan(v); }))
-            result.push_back({p, PixelFault::nan});
-        else if (any([](float v) { return std::isinf(v); }))
-            result.push_back({p, PixelFault::infinite});
-        else if (any([](float v) { return v < 0; }))
-            result.push_back({p, PixelFault::negative});
+    if (maximum == 0) return result;
+    visitFaults(image, rules, 0, pixelCount(image), [&](const FaultyPixel& pixel) {
+        result.push_back(pixel);
+        return result.size() < maximum;
     });
+    return result;
+}
+
+FaultCounts countFaults(const Image& image, const FaultRules& rules) {
+    FaultCounts counts;
+    visitFaults(image, rules, 0, pixelCount(image), [&](const FaultyPixel& pixel) {
+        ++(pixel.fault == PixelFault::nan ? counts.nan : pixel.fault == PixelFault::infinite ? counts.infinite : counts.negative);
+        return true;
+    });
+    return counts;
+}
+
+std::optional<FaultyPixel> nextFault(const Image& image, std::optional<Pixel> after, const FaultRules& rules) {
+    const std::size_t count = pixelCount(image);
+    const std::size_t begin = after ? std::min(count, std::size_t(after->y) * image.width() + after->x + 1) : 0;
+    std::optional<FaultyPixel> result;
+    const auto take = [&](const FaultyPixel& pixel) {
+        result = pixel;
+        return false;
+    };
+    visitFaults(image, rules, begin, count, take);
+    if (!result) visitFaults(image, rules, 0, begin, take);
     return result;
 }
 

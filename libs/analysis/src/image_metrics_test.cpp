@@ -152,6 +152,36 @@ TEST(FaultyPixels, InReadingOrderWorstFaultEach) {
     EXPECT_EQ(faults[1].fault, PixelFault::infinite);
     EXPECT_EQ(faults[2].fault, PixelFault::nan);
     EXPECT_EQ(faultyPixels(image, 1).size(), 1u);
+    const FaultCounts counts = countFaults(image);
+    EXPECT_EQ(counts.nan, 1u);
+    EXPECT_EQ(counts.infinite, 1u);
+    EXPECT_EQ(counts.negative, 1u);
+    EXPECT_EQ(countFaults(image, {.channels = 1}).nan, 0u);
+    EXPECT_EQ(countFaults(image, {.negative = false}).all(), 2u);
+}
+
+/// One after the other, round and round, is the list.
+TEST(FaultyPixels, EachIsTheNextOfTheOneBefore) {
+    Image image = filled(70, 50, {1, 1, 1});
+    for (std::uint32_t y = 0; y < 50; ++y)
+        for (std::uint32_t x = 0; x < 70; ++x)
+            if ((x * 31 + y * 17) % 3 != 0) image.setColor({x, y}, {1, x % 2 ? kNaN : kInf, -1});
+    const auto all = faultyPixels(image, 10000);
+    ASSERT_GT(all.size(), 2000u);
+    std::optional<Pixel> at;
+    for (int round = 0; round < 2; ++round)
+        for (const FaultyPixel& expected : all) {
+            const auto next = nextFault(image, at);
+            ASSERT_EQ(next, expected);
+            at = next->pixel;
+        }
+    const Image fine = filled(3, 2, {1, 1, 1});
+    EXPECT_FALSE(nextFault(fine, {}));
+    EXPECT_FALSE(nextFault(fine, Pixel{2, 1}));
+    Image one = fine;
+    one.setColor({1, 1}, {kNaN, 0, 0});
+    EXPECT_EQ(nextFault(one, Pixel{1, 1})->pixel, (Pixel{1, 1})) << "the only one";
+    EXPECT_FALSE(nextFault(Image(), Pixel{7, 7}));
 }
 
 }  // namespace

@@ -59,10 +59,27 @@ std::vector<ChannelStatistics> imageStatistics(const Image& image, PixelRect rec
 /// Of these pixels; those outside the image count for nothing.
 std::vector<ChannelStatistics> imageStatistics(const Image& image, std::span<const Pixel> pixels);
 
-/// Pixels with at least one NaN, infinite or negative channel, in reading order, at most `maximum`.
+/// What makes a pixel no radiance: its worst channel says.
 enum class PixelFault : std::uint8_t { nan = 0, infinite = 1, negative = 2 };
-struct FaultyPixel { Pixel pixel; PixelFault fault = PixelFault::nan; };
-std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum = 1000);
+struct FaultyPixel {
+    Pixel pixel;
+    PixelFault fault = PixelFault::nan;
+    friend bool operator==(const FaultyPixel&, const FaultyPixel&) = default;
+};
+struct FaultRules {
+    std::uint32_t channels = 0xffffffff;   ///< the first so many are looked at
+    bool negative = true;                  ///< a negative channel is a fault; not so of differences, normals, positions
+};
+struct FaultCounts {
+    std::size_t nan = 0, infinite = 0, negative = 0;   ///< pixels, each once
+    std::size_t all() const { return nan + infinite + negative; }
+};
+/// Pixels with at least one NaN, infinite or negative channel, in reading order, at most `maximum`.
+std::vector<FaultyPixel> faultyPixels(const Image& image, std::size_t maximum = 1000, const FaultRules& rules = {});
+FaultCounts countFaults(const Image& image, const FaultRules& rules = {});
+/// The first one after a pixel in reading order, beginning again at the top; `after` itself if it is the only one. Takes
+/// no list, so that an image may have any number of them. \param after  nothing: from the top
+std::optional<FaultyPixel> nextFault(const Image& image, std::optional<Pixel> after, const FaultRules& rules = {});
 
 /// Values of a region as one series, for histograms and ranges.
 /// \param rect  clipped to the image; empty: the whole image
