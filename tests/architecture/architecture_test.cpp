@@ -26,6 +26,7 @@ const std::map<std::string, Rule>& rules() {
         {"libs/probe", {{"core", "probe"}, {}}},
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
         {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio", "dlfcn.h"}}},
+        {"libs/c", {{"core", "recorder", "server", "c", "emca.h"}, {"stdbool.h", "stddef.h", "stdint.h"}}},
         {"libs/adapter", {{"core", "recorder", "server", "probe", "adapter"}, {"pthread.h", "signal.h"}}},
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
         {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "jpeglib.h", "dlfcn.h", "link.h"}}},
@@ -39,7 +40,7 @@ const std::map<std::string, Rule>& rules() {
         // What they include of their renderers is theirs to say.
         {"integrations", {{"core", "recorder", "server", "adapter", "probe", "imageio"}, {""}}},
         {"python", {{"core", "recorder", "query", "server", "client", "analysis"}, {"pybind11/"}}},
-        {"examples", {{"core", "recorder", "server", "client", "probe", "analysis", "explorer"}, {"Q"}}},
+        {"examples", {{"core", "recorder", "server", "client", "probe", "analysis", "explorer", "emca.h"}, {"Q", "math.h", "stdio.h", "stdlib.h"}}},
     };
     return table;
 }
@@ -51,7 +52,7 @@ bool isTest(const fs::path& file) {
            path.find("_bench.") != std::string::npos;
 }
 
-bool isSource(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }
+bool isSource(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp" || file.extension() == ".c"; }
 
 std::vector<std::pair<bool, std::string>> includesOf(const fs::path& file) {
     static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
@@ -106,6 +107,20 @@ TEST(Architecture, ARendererThatLinksTheServerSeesTheStandardLibraryOnly) {
             for (const auto& [angled, header] : includesOf(entry.path()))
                 EXPECT_TRUE(angled ? isStandard(header) : header.rfind("emca/", 0) == 0) << fs::relative(entry.path(), root) << ": " << header;
         }
+}
+
+/// And one in C sees C.
+TEST(Architecture, TheHeadersOfCKnowNothingOfCpp) {
+    const fs::path root = EMCA_SOURCE_DIR;
+    int files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(root / "libs/c/include")) {
+        if (!isSource(entry.path())) continue;
+        ++files;
+        for (const auto& [angled, header] : includesOf(entry.path()))
+            EXPECT_TRUE(angled ? header == "stdbool.h" || header == "stddef.h" || header == "stdint.h" : header.rfind("emca/c/", 0) == 0)
+                << fs::relative(entry.path(), root) << ": " << header;
+    }
+    EXPECT_GT(files, 5);
 }
 
 /// The explorer's own plugins get what anybody's plugin gets.
