@@ -22,6 +22,12 @@ Corners cornersOf(const Mesh& mesh, std::size_t face) {
     return {toDouble(mesh.positions[t[0]]), toDouble(mesh.positions[t[1]]), toDouble(mesh.positions[t[2]])};
 }
 
+/// Of "pixel (3, 4), path 7, …" what a person does not read beside the pixel already.
+std::string withoutPixel(const std::string& example) {
+    const std::size_t end = example.find("), ");
+    return end == std::string::npos ? example : example.substr(end + 3);
+}
+
 /// Relative to a mesh's size: hits of other arithmetic than ours, and offsets against self-intersection of that order.
 constexpr double kTolerance = 1e-4, kOffsetTolerance = 1e-3;
 /// Of coordinates, which are floats.
@@ -178,17 +184,17 @@ Finding SurfaceCheck::finding() const {
     if (outOfRange_.count > 0) {
         finding.complain(Outcome::failed, fmt::format("{} name a mesh or face that the scene does not have, first {}.", outOfRange_.count, outOfRange_.example),
                          "The mesh is the place in the list of meshes(), the face the place in Mesh::triangles, both from 0.");
-        finding.pixels.push_back({outOfRange_.pixel, outOfRange_.example});
+        finding.pixels.push_back({outOfRange_.pixel, withoutPixel(outOfRange_.example)});
     }
     if (slightly_.count > 0) {
         finding.complain(Outcome::warning, fmt::format("{} a little beside their triangle, by {} at most ({}).", slightly_.count == 1 ? "1 lies" : fmt::format("{} lie", slightly_.count), formatNumber(slightly_.distance), slightly_.example),
                          "Record the intersection itself, not the point that is moved off the surface for the next ray.");
-        finding.pixels.push_back({slightly_.pixel, slightly_.example});
+        finding.pixels.push_back({slightly_.pixel, withoutPixel(slightly_.example)});
     }
     if (off_.count > 0) {
         finding.complain(Outcome::failed, fmt::format("{} off their triangle, by {} at most ({}); the scene is {} large.", off_.count == 1 ? "1 is" : fmt::format("{} are", off_.count), formatNumber(off_.distance), off_.example, formatNumber(scene_)),
                          "Mesh and face must be those of meshes() and positions in world space: look for another order of meshes, faces reordered by the acceleration structure, instances without their transform.");
-        finding.pixels.push_back({off_.pixel, off_.example});
+        finding.pixels.push_back({off_.pixel, withoutPixel(off_.example)});
     }
     return finding;
 }
