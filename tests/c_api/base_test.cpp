@@ -13,7 +13,8 @@ namespace {
 TEST(VersionInC, IsCheckedWithASentence) {
     EXPECT_EQ(emca_abi(), EMCA_ABI);
     EXPECT_EQ(emca_check_abi(EMCA_ABI, nullptr), EMCA_OK);
-    const std::uint32_t newerLibrary = (EMCA_ABI_MAJOR + 1) << 16, newerHeader = EMCA_ABI + 1, olderLibrary = (EMCA_ABI_MAJOR - 1) << 16 | 7;
+    const std::uint32_t newerLibrary = (EMCA_ABI_MAJOR + 1) << 16, newerHeader = EMCA_ABI + 1,
+                        olderLibrary = (EMCA_ABI_MAJOR - 1) << 16 | 7;
     for (const std::uint32_t abi : {newerLibrary, newerHeader, olderLibrary, 0u}) {
         emca_error error{};
         EXPECT_EQ(emca_check_abi(abi, &error), EMCA_VERSION_MISMATCH) << abi;
@@ -51,7 +52,8 @@ TEST(ErrorsInC, AreCopiedAndCut) {
 }
 
 TEST(ErrorsInC, HaveTheNamesAndNumbersOfCpp) {
-    for (int code = EMCA_INTERNAL; code <= EMCA_OUT_OF_MEMORY; ++code) EXPECT_STREQ(emca_code_name(code), name(static_cast<ErrorCode>(code)));
+    for (int code = EMCA_INTERNAL; code <= EMCA_OUT_OF_MEMORY; ++code)
+        EXPECT_STREQ(emca_code_name(code), name(static_cast<ErrorCode>(code)));
     EXPECT_EQ(EMCA_OUT_OF_MEMORY, static_cast<int>(ErrorCode::outOfMemory));
     EXPECT_EQ(EMCA_PIXEL_OUT_OF_RANGE, static_cast<int>(ErrorCode::pixelOutOfRange));
     EXPECT_EQ(EMCA_RENDERER_FAILED, static_cast<int>(ErrorCode::rendererFailed));

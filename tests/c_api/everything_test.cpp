@@ -21,8 +21,14 @@ Color valueOf(Pixel pixel, std::uint64_t sample, std::uint64_t seed) {
 class Twin final : public Renderer {
   public:
     RendererInfo info() const override {
-        return {.renderer = "everything in C++", .scene = "nothing", .width = EVERYTHING_WIDTH, .height = EVERYTHING_HEIGHT,
-                .samplesPerPixel = EVERYTHING_SAMPLES, .integrator = "hash", .sampler = "none", .seed = 11};
+        return {.renderer = "everything in C++",
+                .scene = "nothing",
+                .width = EVERYTHING_WIDTH,
+                .height = EVERYTHING_HEIGHT,
+                .samplesPerPixel = EVERYTHING_SAMPLES,
+                .integrator = "hash",
+                .sampler = "none",
+                .seed = 11};
     }
     Camera camera() const override { return {}; }
     std::vector<Mesh> meshes() const override { return {}; }
@@ -32,7 +38,9 @@ class Twin final : public Renderer {
             for (std::uint32_t x = 0; x < EVERYTHING_WIDTH; ++x) image.color.setColor({x, y}, value({x, y}, settings));
         return image;
     }
-    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording&, RequestMonitor&) override { return value(pixel, settings); }
+    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording&, RequestMonitor&) override {
+        return value(pixel, settings);
+    }
 
   private:
     static void vertex(std::int32_t depth, Color value) {
@@ -129,7 +137,8 @@ TEST_P(Everything, RecordsWhatCppRecords) {
     }
     EXPECT_EQ(emca_misuse(nullptr), misuses);
 }
-INSTANTIATE_TEST_SUITE_P(EveryWay, Everything, testing::Values(everything, everything_by_handles, everything_in_threads));
+INSTANTIATE_TEST_SUITE_P(EveryWay, Everything,
+                         testing::Values(everything, everything_by_handles, everything_in_threads));
 
 TEST(EverythingInC, TheTextSeesADifference) {
     ServedInC served(everything());
@@ -137,7 +146,8 @@ TEST(EverythingInC, TheTextSeesADifference) {
     ASSERT_TRUE(one.ok() && other.ok());
     EXPECT_NE(pathText(one->paths), pathText(other->paths));
     const std::string text = pathText(one->paths);
-    for (const char* part : {"environment", "light 1", "twice int 1", "twice int 2", "contribution connected \"light sampling\"", "splat 0,1", "color with alpha"})
+    for (const char* part : {"environment", "light 1", "twice int 1", "twice int 2",
+                             "contribution connected \"light sampling\"", "splat 0,1", "color with alpha"})
         EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
@@ -179,11 +189,16 @@ TEST(EverythingInC, TheRestOfTheRendererArrives) {
     EXPECT_EQ(info->renderer, "everything in C");
     EXPECT_EQ(info->integrator, "hash");
     EXPECT_EQ(info->seed, 11u);
-    EXPECT_NE(std::find(info->capabilities.begin(), info->capabilities.end(), "deterministic"), info->capabilities.end()) << "unless it says otherwise";
+    EXPECT_NE(std::find(info->capabilities.begin(), info->capabilities.end(), "deterministic"),
+              info->capabilities.end())
+        << "unless it says otherwise";
     EXPECT_NE(std::find(info->capabilities.begin(), info->capabilities.end(), "two"), info->capabilities.end());
     const auto camera = served.client().camera();
     ASSERT_TRUE(camera.ok());
-    EXPECT_EQ(*camera, (Camera{.kind = CameraKind::orthographic, .position = {1, 2, 3}, .focusDistance = 4, .rightHanded = false})) << "and the rest as usual";
+    EXPECT_EQ(
+        *camera,
+        (Camera{.kind = CameraKind::orthographic, .position = {1, 2, 3}, .focusDistance = 4, .rightHanded = false}))
+        << "and the rest as usual";
     const auto meshes = served.client().meshes();
     ASSERT_TRUE(meshes.ok());
     ASSERT_EQ(meshes->size(), 1u);
@@ -194,7 +209,8 @@ TEST(EverythingInC, TheRestOfTheRendererArrives) {
     EXPECT_EQ(mesh.diffuse, Color(0.5f, 0.25f, 1));
     EXPECT_EQ(mesh.emission, Color(3, 2, 1));
     std::atomic<int> previews = 0;
-    const auto render = served.client().render({.samplesPerPixel = 5}, {.preview = [&](PixelRect, std::span<const Color>) { ++previews; }});
+    const auto render = served.client().render({.samplesPerPixel = 5},
+                                               {.preview = [&](PixelRect, std::span<const Color>) { ++previews; }});
     ASSERT_TRUE(render.ok());
     EXPECT_GT(previews, 0);
     EXPECT_EQ(*render->image.samples.at({2, 1}), 7);

@@ -1,5 +1,5 @@
-// examples/minimal_renderer.c as a person runs it: what it renders does not depend on EMCA, and what it records is true of
-// its scene.
+// examples/minimal_renderer.c as a person runs it: what it renders does not depend on EMCA, and what it records is true
+// of its scene.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -52,7 +52,8 @@ TEST(ExampleInC, RendersTheSameWithoutRecordingWhileIdleAndWhileRecording) {
     const client::RenderOptions options{.samplesPerPixel = 4, .seed = 3, .hasSeed = true};
     const Image absent = rendered(*without.connection, options), idle = rendered(*with.connection, options);
     EXPECT_TRUE(sameBits(absent, idle));
-    EXPECT_FALSE(sameBits(idle, rendered(*with.connection, {.samplesPerPixel = 4, .seed = 4, .hasSeed = true}))) << "another seed";
+    EXPECT_FALSE(sameBits(idle, rendered(*with.connection, {.samplesPerPixel = 4, .seed = 4, .hasSeed = true})))
+        << "another seed";
     rendered(*with.connection, options);
     // The whole image once more, with everything recorded.
     const auto active = with.connection->traceRect({0, 0, kWidth, kHeight});
@@ -103,7 +104,8 @@ TEST(ExampleInC, RecordsWhatIsTrueOfItsScene) {
             EXPECT_NEAR(length(position - sphere.centre) / sphere.radius, 1, 1e-4);
             const Mesh& mesh = meshes->at(std::size_t(surface.mesh));
             const Triangle& triangle = mesh.triangles.at(std::size_t(surface.face));
-            const Vec3f middle = (mesh.positions[triangle[0]] + mesh.positions[triangle[1]] + mesh.positions[triangle[2]]) / 3.f;
+            const Vec3f middle =
+                (mesh.positions[triangle[0]] + mesh.positions[triangle[1]] + mesh.positions[triangle[2]]) / 3.f;
             EXPECT_LT(length(position - middle), 0.15f * sphere.radius) << "the face is the one that was hit";
             EXPECT_EQ(paths.emission(v), sphere.emission);
             throughput = throughput * sphere.albedo;
@@ -131,7 +133,8 @@ TEST(ExampleInC, CollectsItsLayers) {
     client::RenderOptions plain = options;
     plain.layers.clear();
     EXPECT_TRUE(sameBits(render->image.color, rendered(*example.connection, plain)));
-    const auto trace = example.connection->traceRect({0, 0, kWidth, kHeight}, {.samplesPerPixel = 4, .columns = {"surface"}});
+    const auto trace =
+        example.connection->traceRect({0, 0, kWidth, kHeight}, {.samplesPerPixel = 4, .columns = {"surface"}});
     ASSERT_TRUE(trace.ok());
     std::uint64_t hits = 0;
     for (Index v = 0; v < trace->paths.vertexCount(); ++v) hits += trace->paths.surface(v).has_value();

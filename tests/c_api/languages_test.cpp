@@ -31,9 +31,12 @@ std::vector<std::string> blocks(const std::string& language) {
     std::istringstream text(contents(kPage));
     bool inside = false;
     for (std::string line; std::getline(text, line);) {
-        if (!inside && line == "```" + language) inside = true, found.emplace_back();
-        else if (inside && line == "```") inside = false;
-        else if (inside) found.back() += line + "\n";
+        if (!inside && line == "```" + language)
+            inside = true, found.emplace_back();
+        else if (inside && line == "```")
+            inside = false;
+        else if (inside)
+            found.back() += line + "\n";
     }
     return found;
 }
@@ -80,8 +83,9 @@ TEST(Languages, TheProgramInCIsServed) {
         if (!isProgram(block)) continue;
         ++programs;
         std::ofstream(kWork / "grey.c") << block;
-        compile({EMCA_C_COMPILER, "-std=c11", "-Wall", "-pedantic", (kWork / "grey.c").string(), "-I" + (kSource / "libs/c/include").string(),
-                 library("-L"), library("-Wl,-rpath,"), "-lemca", "-o", (kWork / "grey_c").string()});
+        compile({EMCA_C_COMPILER, "-std=c11", "-Wall", "-pedantic", (kWork / "grey.c").string(),
+                 "-I" + (kSource / "libs/c/include").string(), library("-L"), library("-Wl,-rpath,"), "-lemca", "-o",
+                 (kWork / "grey_c").string()});
         if (!HasFatalFailure()) expectServed(kWork / "grey_c");
     }
     EXPECT_EQ(programs, 1);
@@ -98,23 +102,24 @@ TEST(Languages, ThePiecesInCCompile) {
     }
     EXPECT_GE(pieces, 4);
     std::ofstream(kWork / "snippets.c") << text;
-    compile({EMCA_C_COMPILER, "-std=c11", "-Wall", "-Wextra", "-pedantic", "-fsyntax-only", "-I" + (kSource / "libs/c/include").string(),
-             (kWork / "snippets.c").string()});
+    compile({EMCA_C_COMPILER, "-std=c11", "-Wall", "-Wextra", "-pedantic", "-fsyntax-only",
+             "-I" + (kSource / "libs/c/include").string(), (kWork / "snippets.c").string()});
 }
 
 TEST(Languages, TheProgramInRustIsServed) {
     if (std::strlen(EMCA_RUSTC) == 0) GTEST_SKIP() << "There is no rustc.";
     fs::create_directories(kWork);
-    compile({EMCA_RUSTC, "--edition", "2021", "-O", (kSource / "examples/languages/grey.rs").string(), "-L", library("native="),
-             "-C", library("link-arg=-Wl,-rpath,"), "-o", (kWork / "grey_rust").string()});
+    compile({EMCA_RUSTC, "--edition", "2021", "-O", (kSource / "examples/languages/grey.rs").string(), "-L",
+             library("native="), "-C", library("link-arg=-Wl,-rpath,"), "-o", (kWork / "grey_rust").string()});
     if (!HasFatalFailure()) expectServed(kWork / "grey_rust");
 }
 
 TEST(Languages, TheProgramInFortranIsServed) {
     if (std::strlen(EMCA_GFORTRAN) == 0) GTEST_SKIP() << "There is no gfortran.";
     fs::create_directories(kWork);
-    compile({EMCA_GFORTRAN, "-std=f2008", "-O2", "-J", kWork.string(), (kSource / "examples/languages/grey.f90").string(), library("-L"),
-             library("-Wl,-rpath,"), "-lemca", "-o", (kWork / "grey_fortran").string()});
+    compile({EMCA_GFORTRAN, "-std=f2008", "-O2", "-J", kWork.string(),
+             (kSource / "examples/languages/grey.f90").string(), library("-L"), library("-Wl,-rpath,"), "-lemca", "-o",
+             (kWork / "grey_fortran").string()});
     if (!HasFatalFailure()) expectServed(kWork / "grey_fortran");
 }
 
@@ -125,7 +130,8 @@ TEST(Languages, ThePageQuotesTheExamples) {
         std::size_t lines = 0;
         for (const std::string& block : blocks(language)) {
             std::istringstream text(block);
-            for (std::string line; std::getline(text, line); ++lines) EXPECT_NE(example.find(line + "\n"), std::string::npos) << line;
+            for (std::string line; std::getline(text, line); ++lines)
+                EXPECT_NE(example.find(line + "\n"), std::string::npos) << line;
         }
         EXPECT_GT(lines, 5u) << language;
     }

@@ -14,9 +14,13 @@ void write(std::ostream& out, const std::string& v) { out << '"' << v << "\" "; 
 void write(std::ostream& out, Color v) { write(out, v.r), write(out, v.g), write(out, v.b); }
 void write(std::ostream& out, ColorA v) { write(out, Color(v.r, v.g, v.b)), write(out, v.a); }
 template <typename T>
-void write(std::ostream& out, const Vec2<T>& v) { write(out, v.x), write(out, v.y); }
+void write(std::ostream& out, const Vec2<T>& v) {
+    write(out, v.x), write(out, v.y);
+}
 template <typename T>
-void write(std::ostream& out, const Vec3<T>& v) { write(out, v.x), write(out, v.y), write(out, v.z); }
+void write(std::ostream& out, const Vec3<T>& v) {
+    write(out, v.x), write(out, v.y), write(out, v.z);
+}
 void write(std::ostream& out, const std::vector<float>& v) {
     for (const float f : v) write(out, f);
 }
@@ -24,8 +28,10 @@ void write(std::ostream& out, const std::vector<float>& v) {
 template <typename T>
 void optional(std::ostream& out, const char* name, const std::optional<T>& value) {
     out << name << ' ';
-    if (value) write(out, *value);
-    else out << "- ";
+    if (value)
+        write(out, *value);
+    else
+        out << "- ";
 }
 
 void writeData(std::ostream& out, const PathSet& paths, Scope scope, Index owner) {
@@ -41,7 +47,8 @@ void writeData(std::ostream& out, const PathSet& paths, Scope scope, Index owner
 }
 
 void writeVertex(std::ostream& out, const PathSet& paths, Index v) {
-    out << "\n  " << name(paths.subpath(v)) << ' ' << paths.depthIndex(v) << (paths.isEnvironment(v) ? " environment " : " ");
+    out << "\n  " << name(paths.subpath(v)) << ' ' << paths.depthIndex(v)
+        << (paths.isEnvironment(v) ? " environment " : " ");
     optional(out, "position", paths.position(v));
     optional(out, "estimate", paths.vertexEstimate(v));
     optional(out, "emission", paths.emission(v));
@@ -65,7 +72,8 @@ void writeVertex(std::ostream& out, const PathSet& paths, Index v) {
 std::string pathText(const PathSet& paths) {
     std::ostringstream out;
     for (Index p = 0; p < paths.pathCount(); ++p) {
-        out << "path " << paths.pixel(p).x << ',' << paths.pixel(p).y << ' ' << paths.sample(p) << '.' << paths.part(p) << ' ';
+        out << "path " << paths.pixel(p).x << ',' << paths.pixel(p).y << ' ' << paths.sample(p) << '.' << paths.part(p)
+            << ' ';
         optional(out, "origin", paths.origin(p));
         optional(out, "estimate", paths.estimate(p));
         const IndexRange splats = paths.splats(p), vertices = paths.vertices(p);

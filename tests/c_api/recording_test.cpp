@@ -115,7 +115,8 @@ TEST(KeysInC, AreHashedOnceByAnyThread) {
     for (int t = 0; t < 4; ++t)
         threads.emplace_back([&, t] {
             for (int sample = 0; sample < 100; ++sample)
-                emca_add_intersection_float(emca_at_vertex(own.recording, {0, 0}, sample, 0, t, EMCA_CAMERA_SUBPATH), &lazy, 1);
+                emca_add_intersection_float(emca_at_vertex(own.recording, {0, 0}, sample, 0, t, EMCA_CAMERA_SUBPATH),
+                                            &lazy, 1);
         });
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(lazy.hash, made.hash);
@@ -188,8 +189,9 @@ TEST(SurfacesInC, AreInertWhereNothingIsCollected) {
     const emca_layer layer = emca_find_layer(nullptr, "density");
     emca_surface_cursor* cursor = emca_thread_surface_cursor(nullptr);
     EXPECT_EQ(cursor, nullptr);
-    for (const emca_surface_point& at : {emca_locate(cursor, 0, 0, {0, 0, 0}), (emca_locate)(cursor, 0, 0, {0, 0, 0}),
-                                         emca_locate_barycentric(cursor, 0, 0, {0, 0}), (emca_locate_barycentric)(cursor, 0, 0, {0, 0})}) {
+    for (const emca_surface_point& at :
+         {emca_locate(cursor, 0, 0, {0, 0, 0}), (emca_locate)(cursor, 0, 0, {0, 0, 0}),
+          emca_locate_barycentric(cursor, 0, 0, {0, 0}), (emca_locate_barycentric)(cursor, 0, 0, {0, 0})}) {
         emca_layer_add(layer, &at, 1);
         (emca_layer_add_color)(layer, &at, {1, 1, 1});
         EXPECT_EQ(at.opaque[0], 0u);

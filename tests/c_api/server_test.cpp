@@ -14,7 +14,8 @@ TEST(ServerInC, SaysWhereItIs) {
     const emca_renderer renderer = everything();
     ServedInC served(renderer);
     EXPECT_GT(emca_server_port(served.server()), 0);
-    EXPECT_EQ(std::string(emca_server_address(served.server())), "127.0.0.1:" + std::to_string(emca_server_port(served.server())));
+    EXPECT_EQ(std::string(emca_server_address(served.server())),
+              "127.0.0.1:" + std::to_string(emca_server_port(served.server())));
     const emca_server_options taken = {EMCA_SIZED(emca_server_options), .port = emca_server_port(served.server())};
     emca_server* second = nullptr;
     emca_error error{};
@@ -35,11 +36,12 @@ TEST(ServerInC, AsksForItsTokenAndLogs) {
         std::string lines;
     } log;
     const emca_renderer renderer = everything();
-    const emca_server_options options = {EMCA_SIZED(emca_server_options), .token = "open sesame", .maximum_samples_per_pixel = 8, .log_user = &log,
-        .log = [](void* user, const char* line) {
-            const std::lock_guard lock(static_cast<Log*>(user)->mutex);
-            static_cast<Log*>(user)->lines += std::string(line) + "\n";
-        }};
+    const emca_server_options options = {EMCA_SIZED(emca_server_options), .token = "open sesame",
+                                         .maximum_samples_per_pixel = 8, .log_user = &log,
+                                         .log = [](void* user, const char* line) {
+                                             const std::lock_guard lock(static_cast<Log*>(user)->mutex);
+                                             static_cast<Log*>(user)->lines += std::string(line) + "\n";
+                                         }};
     ServedInC served(renderer, &options);
     const client::Address address{"127.0.0.1", emca_server_port(served.server())};
     EXPECT_FALSE(client::Connection::open(address).ok());
@@ -62,13 +64,19 @@ TEST(ServerInC, EndsWhenItIsStopped) {
 
 TEST(RendererInC, ItsErrorsTravel) {
     emca_renderer renderer = everything();
-    renderer.render_pixel = [](void*, emca_pixel pixel, const emca_settings*, emca_recording*, emca_monitor*, emca_color*, emca_error* error) -> emca_code {
+    renderer.render_pixel = [](void*, emca_pixel pixel, const emca_settings*, emca_recording*, emca_monitor*,
+                               emca_color*, emca_error* error) -> emca_code {
         switch (pixel.x) {
-            case 0: return emca_fail(error, EMCA_NOT_SUPPORTED, "Not on Mondays.");
-            case 1: return EMCA_TOO_LARGE;
-            case 2: return 12345;
-            case 3: return -1;
-            default: throw std::runtime_error("thrown through C");
+            case 0:
+                return emca_fail(error, EMCA_NOT_SUPPORTED, "Not on Mondays.");
+            case 1:
+                return EMCA_TOO_LARGE;
+            case 2:
+                return 12345;
+            case 3:
+                return -1;
+            default:
+                throw std::runtime_error("thrown through C");
         }
     };
     ServedInC served(renderer);
@@ -85,7 +93,8 @@ TEST(RendererInC, ItsErrorsTravel) {
 
 TEST(RendererInC, IsToldOfCallsThatMadeNoSense) {
     emca_renderer renderer = everything();
-    renderer.render_pixel = [](void*, emca_pixel, const emca_settings*, emca_recording*, emca_monitor*, emca_color*, emca_error*) -> emca_code {
+    renderer.render_pixel = [](void*, emca_pixel, const emca_settings*, emca_recording*, emca_monitor*, emca_color*,
+                               emca_error*) -> emca_code {
         emca_recorder* emca = emca_thread_recorder();
         emca_set_path_index(emca, 0, 0);
         emca_set_depth_index(emca, 1, EMCA_CAMERA_SUBPATH);
@@ -95,9 +104,9 @@ TEST(RendererInC, IsToldOfCallsThatMadeNoSense) {
     static std::mutex mutex;
     static std::string lines;
     const emca_server_options options = {EMCA_SIZED(emca_server_options), .log = [](void*, const char* line) {
-        const std::lock_guard lock(mutex);
-        lines += line;
-    }};
+                                             const std::lock_guard lock(mutex);
+                                             lines += line;
+                                         }};
     ServedInC served(renderer, &options);
     EXPECT_TRUE(served.client().tracePixel({0, 0}).ok()) << "the rest of the path is good";
     const std::lock_guard lock(mutex);
@@ -108,7 +117,9 @@ TEST(RendererInC, ThatCannotSayWhatItIsIsNotServed) {
     emca_renderer renderer = everything();
     emca_server* server = nullptr;
     emca_error error{};
-    renderer.info = [](void*, emca_info*, emca_error* e) { return emca_fail(e, EMCA_FILE_NOT_FOUND, "There is no scene."); };
+    renderer.info = [](void*, emca_info*, emca_error* e) {
+        return emca_fail(e, EMCA_FILE_NOT_FOUND, "There is no scene.");
+    };
     EXPECT_EQ(emca_server_start(&renderer, nullptr, &server, &error), EMCA_RENDERER_FAILED);
     EXPECT_NE(std::strstr(error.message, "There is no scene."), nullptr) << error.message;
     renderer.info = [](void*, emca_info* info, emca_error*) -> emca_code {
@@ -123,7 +134,8 @@ TEST(RendererInC, MayBeCancelled) {
     emca_renderer renderer = everything();
     static std::atomic<bool> began, ended;
     began = ended = false;
-    renderer.render_image = [](void*, const emca_settings*, emca_monitor* monitor, emca_image*, emca_error* error) -> emca_code {
+    renderer.render_image = [](void*, const emca_settings*, emca_monitor* monitor, emca_image*,
+                               emca_error* error) -> emca_code {
         began = true;
         while (!emca_cancelled(monitor)) emca_progress(monitor, 0.5), std::this_thread::yield();
         ended = true;
@@ -132,7 +144,8 @@ TEST(RendererInC, MayBeCancelled) {
     ServedInC served(renderer);
     auto cancel = std::make_shared<std::atomic<bool>>(false);
     served.client();
-    std::thread asking([&] { EXPECT_EQ(served.client().render({}, {.cancel = cancel}).error().code, ErrorCode::cancelled); });
+    std::thread asking(
+        [&] { EXPECT_EQ(served.client().render({}, {.cancel = cancel}).error().code, ErrorCode::cancelled); });
     while (!began) std::this_thread::yield();
     *cancel = true;
     asking.join();

@@ -60,7 +60,8 @@ TEST(StructsInC, OfAnOldRendererAreServed) {
 TEST(StructsInC, OfANewerRendererAreServedIfTheyAskForNothingNew) {
     EXPECT_EQ(start(Sized<emca_renderer>(everything(), sizeof(emca_renderer) + 24).get(), nullptr), EMCA_OK);
     std::string message;
-    EXPECT_EQ(start(Sized<emca_renderer>(everything(), sizeof(emca_renderer) + 24, 1).get(), nullptr, &message), EMCA_VERSION_MISMATCH);
+    EXPECT_EQ(start(Sized<emca_renderer>(everything(), sizeof(emca_renderer) + 24, 1).get(), nullptr, &message),
+              EMCA_VERSION_MISMATCH);
     EXPECT_NE(message.find("install a newer"), std::string::npos) << message;
 }
 
@@ -103,7 +104,9 @@ TEST(StructsInC, ThatLackFunctionsAreRefusedByName) {
     refused("meshes", [](emca_renderer& r) { r.meshes = nullptr; });
     refused("render_image", [](emca_renderer& r) { r.render_image = nullptr; });
     refused("render_pixel", [](emca_renderer& r) { r.render_pixel = nullptr; });
-    refused("surface_layers", [](emca_renderer& r) { r.surface_layers = [](void*, emca_layer_list*, emca_error*) -> emca_code { return EMCA_OK; }; });
+    refused("surface_layers", [](emca_renderer& r) {
+        r.surface_layers = [](void*, emca_layer_list*, emca_error*) -> emca_code { return EMCA_OK; };
+    });
 }
 
 TEST(StructsInC, OfMeshesAreChecked) {
@@ -112,7 +115,8 @@ TEST(StructsInC, OfMeshesAreChecked) {
     renderer.meshes = [](void*, emca_mesh_list* list, emca_error* error) -> emca_code {
         const emca_vec3f positions[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
         const std::uint32_t triangle[3] = {0, 1, 3};
-        emca_mesh mesh = {EMCA_SIZED(emca_mesh), .name = "bad", .positions = positions, .triangles = triangle, .position_count = 3, .triangle_count = 1};
+        emca_mesh mesh = {EMCA_SIZED(emca_mesh), .name = "bad",       .positions = positions,
+                          .triangles = triangle, .position_count = 3, .triangle_count = 1};
         if (emca_add_mesh(list, nullptr, nullptr) != EMCA_INVALID_ARGUMENT) wrong = "null mesh";
         if (emca_add_mesh(nullptr, &mesh, nullptr) != EMCA_INVALID_ARGUMENT) wrong = "null list";
         mesh.positions = nullptr;
@@ -129,7 +133,8 @@ TEST(StructsInC, OfMeshesAreChecked) {
 
 TEST(StructsInC, OfLayersAreChecked) {
     emca_renderer renderer = everything();
-    renderer.render_image_with_layers = [](void*, const emca_settings*, emca_surface*, emca_monitor*, emca_image*, emca_error*) -> emca_code { return EMCA_OK; };
+    renderer.render_image_with_layers = [](void*, const emca_settings*, emca_surface*, emca_monitor*, emca_image*,
+                                           emca_error*) -> emca_code { return EMCA_OK; };
     renderer.surface_layers = [](void*, emca_layer_list* list, emca_error* error) -> emca_code {
         const emca_layer_description layer = {EMCA_SIZED(emca_layer_description), .name = "layer", .kind = 4};
         return emca_add_layer(list, &layer, error);

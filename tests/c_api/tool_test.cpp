@@ -13,9 +13,12 @@ std::vector<std::byte> bytes(const std::string& text) {
     const auto* first = reinterpret_cast<const std::byte*>(text.data());
     return {first, first + text.size()};
 }
-std::string text(const std::vector<std::byte>& given) { return {reinterpret_cast<const char*>(given.data()), given.size()}; }
+std::string text(const std::vector<std::byte>& given) {
+    return {reinterpret_cast<const char*>(given.data()), given.size()};
+}
 
-emca_code reversed(void*, const void* request, std::size_t count, emca_monitor* monitor, emca_reply* reply, emca_error* error) {
+emca_code reversed(void*, const void* request, std::size_t count, emca_monitor* monitor, emca_reply* reply,
+                   emca_error* error) {
     const auto* from = static_cast<const char*>(request);
     if (count == 0) return emca_fail(error, EMCA_INVALID_ARGUMENT, "Nothing to turn round.");
     for (std::size_t i = count; i-- > 0;)
@@ -27,10 +30,13 @@ emca_code reversed(void*, const void* request, std::size_t count, emca_monitor* 
 struct Asker {
     emca_tool_host* host = nullptr;
 };
-emca_code ask(void* user, const void* request, std::size_t count, emca_monitor* monitor, emca_reply* reply, emca_error* error) {
+emca_code ask(void* user, const void* request, std::size_t count, emca_monitor* monitor, emca_reply* reply,
+              emca_error* error) {
     const auto* asker = static_cast<Asker*>(user);
-    if (emca_ask_tool(nullptr, "reversed", request, count, monitor, reply, nullptr) != EMCA_INVALID_ARGUMENT) return EMCA_INTERNAL;
-    if (emca_ask_tool(asker->host, nullptr, request, count, monitor, reply, nullptr) != EMCA_INVALID_ARGUMENT) return EMCA_INTERNAL;
+    if (emca_ask_tool(nullptr, "reversed", request, count, monitor, reply, nullptr) != EMCA_INVALID_ARGUMENT)
+        return EMCA_INTERNAL;
+    if (emca_ask_tool(asker->host, nullptr, request, count, monitor, reply, nullptr) != EMCA_INVALID_ARGUMENT)
+        return EMCA_INTERNAL;
     if (const emca_code code = emca_reply_append(reply, "[", 1, error); code != EMCA_OK) return code;
     return emca_ask_tool(asker->host, count == 1 ? "nobody" : "reversed", request, count, monitor, reply, error);
 }
@@ -39,7 +45,8 @@ TEST(ToolsInC, AnswerAndAskEachOther) {
     ServedInC served(everything());
     Asker asker;
     const emca_tool first = {EMCA_SIZED(emca_tool), .name = "reversed", .answer = reversed};
-    const emca_tool second = {EMCA_SIZED(emca_tool), .user = &asker, .name = "asker", .answer = ask,
+    const emca_tool second = {
+        EMCA_SIZED(emca_tool), .user = &asker, .name = "asker", .answer = ask,
         .added = [](void* user, emca_tool_host* host) { static_cast<Asker*>(user)->host = host; }};
     emca_error error{};
     ASSERT_EQ(emca_server_add_tool(served.server(), &first, &error), EMCA_OK) << error.message;
@@ -60,13 +67,18 @@ TEST(ToolsInC, AddToReplays) {
     const auto user = [](void* given) -> std::string& { return static_cast<Told*>(given)->events; };
     static const auto log = user;
     static emca_key note = EMCA_KEY("note");
-    const emca_tool tool = {EMCA_SIZED(emca_tool), .user = &told, .name = "observer", .answer = reversed,
+    const emca_tool tool = {
+        EMCA_SIZED(emca_tool),
+        .user = &told,
+        .name = "observer",
+        .answer = reversed,
         .begin_pixel = [](void* u, emca_pixel p) { log(u) += "<" + std::to_string(p.x) + "," + std::to_string(p.y); },
         .end_pixel = [](void* u, emca_pixel) { log(u) += ">"; },
-        .begin_path = [](void* u, emca_pixel, std::int64_t sample) {
-            log(u) += " (" + std::to_string(sample);
-            emca_add_path_int(emca_thread_recorder(), &note, sample);
-        },
+        .begin_path =
+            [](void* u, emca_pixel, std::int64_t sample) {
+                log(u) += " (" + std::to_string(sample);
+                emca_add_path_int(emca_thread_recorder(), &note, sample);
+            },
         .end_path = [](void* u, emca_pixel, std::int64_t) { log(u) += ")"; },
         .begin_vertex = [](void* u, std::int32_t depth) { log(u) += "[" + std::to_string(depth); },
         .end_vertex = [](void* u, std::int32_t) { log(u) += "]"; }};

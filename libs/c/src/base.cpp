@@ -84,13 +84,17 @@ emca_code emca_check_abi(uint32_t compiledWith, emca_error* error) {
     const std::uint32_t major = compiledWith >> 16, minor = compiledWith & 0xffff;
     if (major == EMCA_ABI_MAJOR && minor <= EMCA_ABI_MINOR) return EMCA_OK;
     return c::guarded(error, [&] {
-        const auto number = [](std::uint32_t a, std::uint32_t b) { return std::to_string(a) + "." + std::to_string(b); };
-        const std::string asked = "The program was compiled for version " + number(major, minor) + " of EMCA's C interface, and the loaded libemca.so (EMCA " EMCA_VERSION ") has " +
+        const auto number = [](std::uint32_t a, std::uint32_t b) {
+            return std::to_string(a) + "." + std::to_string(b);
+        };
+        const std::string asked = "The program was compiled for version " + number(major, minor) +
+                                  " of EMCA's C interface, and the loaded libemca.so (EMCA " EMCA_VERSION ") has " +
                                   number(EMCA_ABI_MAJOR, EMCA_ABI_MINOR) + ": ";
         const bool older = major < EMCA_ABI_MAJOR;
-        return c::fail(error, {ErrorCode::versionMismatch, asked + (compiledWith == 0 ? "set `version` with EMCA_SIZED, or pass EMCA_ABI."
-                                                                    : older ? "compile it again."
-                                                                            : "install a newer EMCA.")});
+        return c::fail(error, {ErrorCode::versionMismatch,
+                               asked + (compiledWith == 0 ? "set `version` with EMCA_SIZED, or pass EMCA_ABI."
+                                        : older           ? "compile it again."
+                                                          : "install a newer EMCA.")});
     });
 }
 
@@ -107,7 +111,9 @@ uint64_t emca_misuse(emca_error* first) {
 uint64_t emca_seed(uint64_t masterSeed, emca_pixel pixel, uint64_t sample) {
     return SeedMap(masterSeed).seed({pixel.x, pixel.y}, sample);
 }
-uint64_t emca_pixel_seed(uint64_t masterSeed, emca_pixel pixel) { return SeedMap(masterSeed).seed(Pixel{pixel.x, pixel.y}); }
+uint64_t emca_pixel_seed(uint64_t masterSeed, emca_pixel pixel) {
+    return SeedMap(masterSeed).seed(Pixel{pixel.x, pixel.y});
+}
 
 struct emca_seed_map {
     std::uint32_t width, height;
@@ -116,7 +122,8 @@ struct emca_seed_map {
 
 emca_code emca_seed_map_create(uint32_t width, uint32_t height, const uint32_t* seeds, uint64_t masterSeed,
                                emca_seed_map** map, emca_error* error) {
-    if (map == nullptr) return c::invalid(error, "emca_seed_map_create was given null for the map: pass the address of a pointer.");
+    if (map == nullptr)
+        return c::invalid(error, "emca_seed_map_create was given null for the map: pass the address of a pointer.");
     *map = nullptr;
     if (seeds == nullptr || width == 0 || height == 0)
         return c::invalid(error, "A seed map needs width * height seeds, but there are no seeds or no pixels.");

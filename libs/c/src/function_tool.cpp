@@ -3,15 +3,19 @@
 #include "renderer_adapter.h"
 #include "sized.h"
 
-struct emca_reply { std::vector<std::byte> bytes; };
+struct emca_reply {
+    std::vector<std::byte> bytes;
+};
 
 namespace emca::c {
 
 Result<emca_tool> checkedTool(const emca_tool* given) {
     auto tool = sized(given, EMCA_SIZE_UP_TO(emca_tool, answer), "emca_tool");
     if (!tool) return tool;
-    if (tool->name == nullptr || *tool->name == '\0') return Error{ErrorCode::invalidArgument, "emca_tool has no name: requests address it by that."};
-    if (tool->answer == nullptr) return Error{ErrorCode::invalidArgument, "emca_tool has no function answer: it is needed."};
+    if (tool->name == nullptr || *tool->name == '\0')
+        return Error{ErrorCode::invalidArgument, "emca_tool has no name: requests address it by that."};
+    if (tool->answer == nullptr)
+        return Error{ErrorCode::invalidArgument, "emca_tool has no function answer: it is needed."};
     return tool;
 }
 
@@ -31,12 +35,24 @@ bool FunctionTool::observesReplay() const {
     return c_.begin_pixel || c_.end_pixel || c_.begin_path || c_.end_path || c_.begin_vertex || c_.end_vertex;
 }
 
-void FunctionTool::beginPixel(Pixel p) { if (c_.begin_pixel) c_.begin_pixel(c_.user, {p.x, p.y}); }
-void FunctionTool::endPixel(Pixel p) { if (c_.end_pixel) c_.end_pixel(c_.user, {p.x, p.y}); }
-void FunctionTool::beginPath(Pixel p, std::int64_t sample) { if (c_.begin_path) c_.begin_path(c_.user, {p.x, p.y}, sample); }
-void FunctionTool::endPath(Pixel p, std::int64_t sample) { if (c_.end_path) c_.end_path(c_.user, {p.x, p.y}, sample); }
-void FunctionTool::beginVertex(std::int32_t depth) { if (c_.begin_vertex) c_.begin_vertex(c_.user, depth); }
-void FunctionTool::endVertex(std::int32_t depth) { if (c_.end_vertex) c_.end_vertex(c_.user, depth); }
+void FunctionTool::beginPixel(Pixel p) {
+    if (c_.begin_pixel) c_.begin_pixel(c_.user, {p.x, p.y});
+}
+void FunctionTool::endPixel(Pixel p) {
+    if (c_.end_pixel) c_.end_pixel(c_.user, {p.x, p.y});
+}
+void FunctionTool::beginPath(Pixel p, std::int64_t sample) {
+    if (c_.begin_path) c_.begin_path(c_.user, {p.x, p.y}, sample);
+}
+void FunctionTool::endPath(Pixel p, std::int64_t sample) {
+    if (c_.end_path) c_.end_path(c_.user, {p.x, p.y}, sample);
+}
+void FunctionTool::beginVertex(std::int32_t depth) {
+    if (c_.begin_vertex) c_.begin_vertex(c_.user, depth);
+}
+void FunctionTool::endVertex(std::int32_t depth) {
+    if (c_.end_vertex) c_.end_vertex(c_.user, depth);
+}
 
 }  // namespace emca::c
 
@@ -54,10 +70,13 @@ emca_code emca_reply_append(emca_reply* reply, const void* data, size_t bytes, e
     });
 }
 
-emca_code emca_ask_tool(emca_tool_host* host, const char* tool, const void* request, size_t bytes, emca_monitor* monitor, emca_reply* reply,
-                        emca_error* error) {
-    if (host == nullptr || tool == nullptr || monitor == nullptr || reply == nullptr || (request == nullptr && bytes > 0))
-        return c::invalid(error, "emca_ask_tool needs a host, the tool's name, a request, and the monitor and reply that `answer` got; one of them is null.");
+emca_code emca_ask_tool(emca_tool_host* host, const char* tool, const void* request, size_t bytes,
+                        emca_monitor* monitor, emca_reply* reply, emca_error* error) {
+    if (host == nullptr || tool == nullptr || monitor == nullptr || reply == nullptr ||
+        (request == nullptr && bytes > 0))
+        return c::invalid(error,
+                          "emca_ask_tool needs a host, the tool's name, a request, and the monitor and reply that "
+                          "`answer` got; one of them is null.");
     return c::guarded(error, [&]() -> emca_code {
         const std::span<const std::byte> asked(static_cast<const std::byte*>(request), bytes);
         const auto answered = reinterpret_cast<ToolHost*>(host)->ask(tool, asked, c::of(monitor));

@@ -6,4 +6,4 @@
 namespace emca::c {
 /// Checked. Errors: invalidArgument, versionMismatch.
 Result<LayerDescription> description(const emca_layer_description* given);
-}
+}  // namespace emca::c

@@ -41,7 +41,8 @@ Key known(emca_key& key) {
     return {std::string_view(key.text, length), hash, SourceLine(key.file == nullptr ? "" : key.file, key.line)};
 }
 
-/// A key's length and hash at its first use. Several threads may do so at once: they find the same. False if it is none.
+/// A key's length and hash at its first use. Several threads may do so at once: they find the same. False if it is
+/// none.
 bool complete(emca_key* key, const char* function) {
     if (key == nullptr || key->text == nullptr) {
         countMisuse(function, "its key, or the key's text, is null.");
@@ -57,8 +58,8 @@ bool complete(emca_key* key, const char* function) {
 }  // namespace
 
 // Of one call: nothing without a recorder, nothing thrown.
-#define EMCA_RECORD(call)                      \
-    if (recorder == nullptr) return;           \
+#define EMCA_RECORD(call)            \
+    if (recorder == nullptr) return; \
     quiet([&] { of(recorder).call; })
 
 extern "C" {
@@ -70,19 +71,29 @@ emca_recorder* emca_thread_recorder(void) {
 
 void emca_set_pixel(emca_recorder* recorder, emca_pixel at) { EMCA_RECORD(setPixel(pixel(at))); }
 void emca_clear_pixel(emca_recorder* recorder) { EMCA_RECORD(clearPixel()); }
-void emca_set_path_index(emca_recorder* recorder, int64_t sample, int32_t part) { EMCA_RECORD(setPathIndex(sample, part)); }
+void emca_set_path_index(emca_recorder* recorder, int64_t sample, int32_t part) {
+    EMCA_RECORD(setPathIndex(sample, part));
+}
 void emca_set_path_origin(emca_recorder* recorder, emca_vec3f origin) { EMCA_RECORD(setPathOrigin(vec(origin))); }
 void emca_end_path(emca_recorder* recorder) { EMCA_RECORD(endPath()); }
-void emca_set_final_estimate(emca_recorder* recorder, emca_color estimate) { EMCA_RECORD(setFinalEstimate(color(estimate))); }
-void emca_add_splat(emca_recorder* recorder, emca_pixel at, emca_color value) { EMCA_RECORD(addSplat(pixel(at), color(value))); }
+void emca_set_final_estimate(emca_recorder* recorder, emca_color estimate) {
+    EMCA_RECORD(setFinalEstimate(color(estimate)));
+}
+void emca_add_splat(emca_recorder* recorder, emca_pixel at, emca_color value) {
+    EMCA_RECORD(addSplat(pixel(at), color(value)));
+}
 
 void emca_set_depth_index(emca_recorder* recorder, int32_t depth, emca_subpath subpath) {
     if (recorder != nullptr && (subpath < EMCA_CAMERA_SUBPATH || subpath > EMCA_LIGHT_SUBPATH))
         return countMisuse(__func__, "its subpath is neither the camera's nor the light's.");
     EMCA_RECORD(setDepthIndex(depth, static_cast<Subpath>(subpath)));
 }
-void emca_set_intersection_pos(emca_recorder* recorder, emca_vec3f position) { EMCA_RECORD(setIntersectionPos(vec(position))); }
-void emca_set_intersection_pos_envmap(emca_recorder* recorder, emca_vec3f position) { EMCA_RECORD(setIntersectionPosEnvmap(vec(position))); }
+void emca_set_intersection_pos(emca_recorder* recorder, emca_vec3f position) {
+    EMCA_RECORD(setIntersectionPos(vec(position)));
+}
+void emca_set_intersection_pos_envmap(emca_recorder* recorder, emca_vec3f position) {
+    EMCA_RECORD(setIntersectionPosEnvmap(vec(position)));
+}
 void emca_set_next_event_estimation_pos(emca_recorder* recorder, emca_vec3f position, bool visible) {
     EMCA_RECORD(setNextEventEstimationPos(vec(position), visible));
 }
@@ -93,16 +104,24 @@ void emca_set_intersection_surface(emca_recorder* recorder, int64_t mesh, int64_
     EMCA_RECORD(setIntersectionSurface(mesh, face));
 }
 void emca_set_intersection_event(emca_recorder* recorder, emca_event event, emca_lobe lobe, const char* label) {
-    if (recorder != nullptr && (event < EMCA_EVENT_NONE || event > EMCA_PASS || lobe < EMCA_LOBE_NONE || lobe > EMCA_STRAIGHT))
+    if (recorder != nullptr &&
+        (event < EMCA_EVENT_NONE || event > EMCA_PASS || lobe < EMCA_LOBE_NONE || lobe > EMCA_STRAIGHT))
         return countMisuse(__func__, "its event is not in 0 to 7 or its lobe not in 0 to 4.");
-    EMCA_RECORD(setIntersectionEvent(static_cast<Event>(event), static_cast<Lobe>(lobe), label == nullptr ? "" : label));
+    EMCA_RECORD(
+        setIntersectionEvent(static_cast<Event>(event), static_cast<Lobe>(lobe), label == nullptr ? "" : label));
 }
-void emca_set_intersection_estimate(emca_recorder* recorder, emca_color estimate) { EMCA_RECORD(setIntersectionEstimate(color(estimate))); }
-void emca_set_intersection_emission(emca_recorder* recorder, emca_color emission) { EMCA_RECORD(setIntersectionEmission(color(emission))); }
-void emca_add_contribution(emca_recorder* recorder, emca_color value, const char* technique, float misWeight, emca_light_end end) {
+void emca_set_intersection_estimate(emca_recorder* recorder, emca_color estimate) {
+    EMCA_RECORD(setIntersectionEstimate(color(estimate)));
+}
+void emca_set_intersection_emission(emca_recorder* recorder, emca_color emission) {
+    EMCA_RECORD(setIntersectionEmission(color(emission)));
+}
+void emca_add_contribution(emca_recorder* recorder, emca_color value, const char* technique, float misWeight,
+                           emca_light_end end) {
     if (recorder != nullptr && (end < EMCA_LIGHT_AUTOMATIC || end > EMCA_LIGHT_CONNECTED))
         return countMisuse(__func__, "its light end is not in 0 to 2.");
-    EMCA_RECORD(addContribution(color(value), technique == nullptr ? "" : technique, misWeight, static_cast<LightEnd>(end)));
+    EMCA_RECORD(
+        addContribution(color(value), technique == nullptr ? "" : technique, misWeight, static_cast<LightEnd>(end)));
 }
 
 emca_key emca_make_key(const char* text) {
@@ -113,17 +132,19 @@ emca_key emca_make_key(const char* text) {
 }
 
 // What is rare is a function of its own, so that the common way needs no room on the stack.
-#define EMCA_CALL(name, record, suffix, Type, stored)                                                             \
-    [[gnu::noinline, gnu::cold]] static void name##suffix##_first(emca_recorder* recorder, emca_key* key, Type value) { \
-        if (complete(key, #name #suffix)) name##suffix(recorder, key, value);                                     \
-    }                                                                                                             \
-    void name##suffix(emca_recorder* recorder, emca_key* key, Type value) {                                       \
-        if (recorder == nullptr) return;                                                                          \
-        if (key == nullptr || !isKnown(*key)) [[unlikely]] return name##suffix##_first(recorder, key, value);     \
-        quiet([&] { of(recorder).record(known(*key), stored); });                                                 \
+#define EMCA_CALL(name, record, suffix, Type, stored)                                                     \
+    [[gnu::noinline, gnu::cold]] static void name##suffix##_first(emca_recorder* recorder, emca_key* key, \
+                                                                  Type value) {                           \
+        if (complete(key, #name #suffix)) name##suffix(recorder, key, value);                             \
+    }                                                                                                     \
+    void name##suffix(emca_recorder* recorder, emca_key* key, Type value) {                               \
+        if (recorder == nullptr) return;                                                                  \
+        if (key == nullptr || !isKnown(*key)) [[unlikely]]                                                \
+            return name##suffix##_first(recorder, key, value);                                            \
+        quiet([&] { of(recorder).record(known(*key), stored); });                                         \
     }
-#define EMCA_DATA(suffix, Type, stored)                                 \
-    EMCA_CALL(emca_add_path_, addPathData, suffix, Type, stored)        \
+#define EMCA_DATA(suffix, Type, stored)                          \
+    EMCA_CALL(emca_add_path_, addPathData, suffix, Type, stored) \
     EMCA_CALL(emca_add_intersection_, addIntersectionData, suffix, Type, stored)
 EMCA_DATA(bool, bool, value)
 EMCA_DATA(int, int64_t, std::int64_t(value))
@@ -156,13 +177,15 @@ emca_recorder* emca_at_path(emca_recording* recording, emca_pixel at, int64_t sa
     if (recording == nullptr || recording->finished) return nullptr;
     emca_recorder* result = nullptr;
     quiet([&] {
-        detail::BindingAccess::place(placedRecorder, detail::BindingAccess::at(recording->recording->path(pixel(at), sample, part)));
+        detail::BindingAccess::place(placedRecorder,
+                                     detail::BindingAccess::at(recording->recording->path(pixel(at), sample, part)));
         result = handle(placedRecorder);
     });
     return result;
 }
 
-emca_recorder* emca_at_vertex(emca_recording* recording, emca_pixel at, int64_t sample, int32_t part, int32_t depth, emca_subpath subpath) {
+emca_recorder* emca_at_vertex(emca_recording* recording, emca_pixel at, int64_t sample, int32_t part, int32_t depth,
+                              emca_subpath subpath) {
     if (recording == nullptr || recording->finished) return nullptr;
     if (subpath < EMCA_CAMERA_SUBPATH || subpath > EMCA_LIGHT_SUBPATH) {
         countMisuse(__func__, "its subpath is neither the camera's nor the light's.");
@@ -171,7 +194,8 @@ emca_recorder* emca_at_vertex(emca_recording* recording, emca_pixel at, int64_t 
     emca_recorder* result = nullptr;
     quiet([&] {
         const PathHandle path = recording->recording->path(pixel(at), sample, part);
-        detail::BindingAccess::place(placedRecorder, detail::BindingAccess::at(path.vertex(depth, static_cast<Subpath>(subpath))));
+        detail::BindingAccess::place(placedRecorder,
+                                     detail::BindingAccess::at(path.vertex(depth, static_cast<Subpath>(subpath))));
         result = handle(placedRecorder);
     });
     return result;

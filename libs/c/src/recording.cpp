@@ -12,8 +12,10 @@ using namespace emca;
 struct emca_scope {
     emca_scope(Recording& recording, const emca_pixel* pixel, emca_scope* outerScope)
         : thread(std::this_thread::get_id()), outer(outerScope) {
-        if (pixel != nullptr) scope.emplace(recording, c::pixel(*pixel));
-        else scope.emplace(recording);
+        if (pixel != nullptr)
+            scope.emplace(recording, c::pixel(*pixel));
+        else
+            scope.emplace(recording);
     }
     std::thread::id thread;
     emca_scope* outer;  ///< of the same thread
@@ -27,10 +29,13 @@ constinit thread_local emca_scope* innermost = nullptr;
 extern "C" {
 
 emca_code emca_scope_open(emca_recording* recording, const emca_pixel* pixel, emca_scope** scope, emca_error* error) {
-    if (scope == nullptr) return c::invalid(error, "emca_scope_open was given null for the scope: pass the address of a pointer.");
+    if (scope == nullptr)
+        return c::invalid(error, "emca_scope_open was given null for the scope: pass the address of a pointer.");
     *scope = nullptr;
-    if (recording == nullptr) return c::invalid(error, "emca_scope_open was given no recording: pass the one that render_pixel got.");
-    if (recording->finished) return c::invalid(error, "emca_scope_open was given a recording that is finished: make a new one.");
+    if (recording == nullptr)
+        return c::invalid(error, "emca_scope_open was given no recording: pass the one that render_pixel got.");
+    if (recording->finished)
+        return c::invalid(error, "emca_scope_open was given a recording that is finished: make a new one.");
     return c::guarded(error, [&] {
         innermost = *scope = new emca_scope(*recording->recording, pixel, innermost);
         return EMCA_OK;
@@ -40,8 +45,11 @@ emca_code emca_scope_open(emca_recording* recording, const emca_pixel* pixel, em
 emca_code emca_scope_close(emca_scope* scope, emca_error* error) {
     if (scope == nullptr) return EMCA_OK;
     if (scope->thread != std::this_thread::get_id())
-        return c::invalid(error, "emca_scope_close was called by another thread than the one that opened the scope: close it there.");
-    if (scope != innermost) return c::invalid(error, "emca_scope_close was given a scope inside of which another one is open: close that one first.");
+        return c::invalid(
+            error, "emca_scope_close was called by another thread than the one that opened the scope: close it there.");
+    if (scope != innermost)
+        return c::invalid(
+            error, "emca_scope_close was given a scope inside of which another one is open: close that one first.");
     innermost = scope->outer;
     return c::guarded(error, [&] {
         delete scope;
@@ -50,7 +58,9 @@ emca_code emca_scope_close(emca_scope* scope, emca_error* error) {
 }
 
 emca_code emca_recording_create(uint64_t budget, emca_recording** recording, emca_error* error) {
-    if (recording == nullptr) return c::invalid(error, "emca_recording_create was given null for the recording: pass the address of a pointer.");
+    if (recording == nullptr)
+        return c::invalid(error,
+                          "emca_recording_create was given null for the recording: pass the address of a pointer.");
     *recording = nullptr;
     return c::guarded(error, [&] {
         RecordingOptions options;
@@ -62,10 +72,12 @@ emca_code emca_recording_create(uint64_t budget, emca_recording** recording, emc
 
 emca_code emca_recording_finish(emca_recording* recording, emca_recording_counts* counts, emca_error* error) {
     if (recording == nullptr || recording->own == nullptr)
-        return c::invalid(error, "emca_recording_finish needs a recording of emca_recording_create; the server finishes its own.");
+        return c::invalid(
+            error, "emca_recording_finish needs a recording of emca_recording_create; the server finishes its own.");
     if (recording->finished) return c::invalid(error, "emca_recording_finish was called a second time.");
     return c::guarded(error, [&]() -> emca_code {
-        const auto asked = c::sized(counts, EMCA_SIZE_UP_TO(emca_recording_counts, dropped_without_vertex), "emca_recording_counts");
+        const auto asked =
+            c::sized(counts, EMCA_SIZE_UP_TO(emca_recording_counts, dropped_without_vertex), "emca_recording_counts");
         if (!asked) return c::fail(error, asked.error());
         recording->finished = true;
         const auto paths = recording->own->finish();

@@ -18,4 +18,4 @@ namespace emca::c {
 inline emca::Vec3f vec(emca_vec3f v) { return {v.x, v.y, v.z}; }
 inline emca::Color color(emca_color c) { return {c.r, c.g, c.b}; }
 inline emca::Pixel pixel(emca_pixel p) { return {p.x, p.y}; }
-}
+}  // namespace emca::c

@@ -7,8 +7,12 @@
 #include "recording_handle.h"
 #include "sized.h"
 
-struct emca_mesh_list { std::vector<emca::Mesh> meshes; };
-struct emca_layer_list { std::vector<emca::LayerDescription> layers; };
+struct emca_mesh_list {
+    std::vector<emca::Mesh> meshes;
+};
+struct emca_layer_list {
+    std::vector<emca::LayerDescription> layers;
+};
 
 namespace emca::c {
 namespace {
@@ -29,7 +33,8 @@ void throwIfFailed(emca_code code, const emca_error& error, const char* function
 }
 
 // The caller's colours are ours.
-static_assert(sizeof(emca_color) == sizeof(Color) && sizeof(emca_pixel) == sizeof(Pixel) && sizeof(emca_vec3f) == sizeof(Vec3f));
+static_assert(sizeof(emca_color) == sizeof(Color) && sizeof(emca_pixel) == sizeof(Pixel) &&
+              sizeof(emca_vec3f) == sizeof(Vec3f));
 
 }  // namespace
 
@@ -37,7 +42,8 @@ Result<emca_renderer> checkedRenderer(const emca_renderer* given) {
     auto renderer = sized(given, EMCA_SIZE_UP_TO(emca_renderer, render_pixel), "emca_renderer");
     if (!renderer) return renderer;
     const auto missing = [](const char* function) {
-        return Error{ErrorCode::invalidArgument, std::string("emca_renderer has no function ") + function + ": it is needed."};
+        return Error{ErrorCode::invalidArgument,
+                     std::string("emca_renderer has no function ") + function + ": it is needed."};
     };
     if (!renderer->info) return missing("info");
     if (!renderer->camera) return missing("camera");
@@ -45,7 +51,8 @@ Result<emca_renderer> checkedRenderer(const emca_renderer* given) {
     if (!renderer->render_image) return missing("render_image");
     if (!renderer->render_pixel) return missing("render_pixel");
     if (!renderer->surface_layers != !renderer->render_image_with_layers)
-        return Error{ErrorCode::invalidArgument, "emca_renderer has only one of surface_layers and render_image_with_layers: give both or none."};
+        return Error{ErrorCode::invalidArgument,
+                     "emca_renderer has only one of surface_layers and render_image_with_layers: give both or none."};
     return renderer;
 }
 
@@ -68,7 +75,8 @@ RendererInfo FunctionRenderer::info() const {
     info.concurrent = given.concurrent != 0;
     info.deterministic = given.deterministic != 0;
     info.pathsReachAnyPixel = given.paths_reach_any_pixel != 0;
-    if (given.capability_count > 0 && given.capabilities == nullptr) throw std::runtime_error("Its info announces capabilities, but the list of them is null.");
+    if (given.capability_count > 0 && given.capabilities == nullptr)
+        throw std::runtime_error("Its info announces capabilities, but the list of them is null.");
     for (std::uint32_t i = 0; i < given.capability_count; ++i) info.capabilities.push_back(text(given.capabilities[i]));
     return info;
 }
@@ -87,9 +95,16 @@ Camera FunctionRenderer::camera() const {
     throwIfFailed(c_.camera(c_.user, &given, &error), error, "camera");
     if (given.kind < EMCA_PERSPECTIVE || given.kind > EMCA_OTHER_CAMERA)
         throw std::runtime_error("Its camera is of kind " + std::to_string(given.kind) + ", but kinds are 0 to 3.");
-    return {.kind = static_cast<CameraKind>(given.kind), .position = vec(given.position), .direction = vec(given.direction), .up = vec(given.up),
-            .verticalFieldOfView = given.vertical_field_of_view, .nearClip = given.near_clip, .farClip = given.far_clip,
-            .focusDistance = given.focus_distance, .apertureRadius = given.aperture_radius, .rightHanded = given.right_handed != 0};
+    return {.kind = static_cast<CameraKind>(given.kind),
+            .position = vec(given.position),
+            .direction = vec(given.direction),
+            .up = vec(given.up),
+            .verticalFieldOfView = given.vertical_field_of_view,
+            .nearClip = given.near_clip,
+            .farClip = given.far_clip,
+            .focusDistance = given.focus_distance,
+            .apertureRadius = given.aperture_radius,
+            .rightHanded = given.right_handed != 0};
 }
 
 std::vector<Mesh> FunctionRenderer::meshes() const {
@@ -109,7 +124,9 @@ std::vector<LayerDescription> FunctionRenderer::surfaceLayers() const {
 
 template <typename Call>
 Result<RenderedImage> FunctionRenderer::image(const char* function, const RenderSettings& settings, const Call& call) {
-    RenderedImage rendered{.color = Image(width_, height_), .samples = Image(width_, height_, {"samples"}), .variance = Image(width_, height_)};
+    RenderedImage rendered{.color = Image(width_, height_),
+                           .samples = Image(width_, height_, {"samples"}),
+                           .variance = Image(width_, height_)};
     emca_image given = filled<emca_image>();
     given.width = width_;
     given.height = height_;
@@ -131,14 +148,18 @@ Result<RenderedImage> FunctionRenderer::renderImage(const RenderSettings& settin
     });
 }
 
-Result<RenderedImage> FunctionRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) {
+Result<RenderedImage> FunctionRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                              RequestMonitor& monitor) {
     if (!c_.render_image_with_layers) return Renderer::renderImageWithLayers(settings, surface, monitor);
-    return image("render_image_with_layers", settings, [&](const emca_settings* asked, emca_image* given, emca_error* error) {
-        return c_.render_image_with_layers(c_.user, asked, reinterpret_cast<emca_surface*>(&surface), handle(monitor), given, error);
-    });
+    return image("render_image_with_layers", settings,
+                 [&](const emca_settings* asked, emca_image* given, emca_error* error) {
+                     return c_.render_image_with_layers(c_.user, asked, reinterpret_cast<emca_surface*>(&surface),
+                                                        handle(monitor), given, error);
+                 });
 }
 
-Result<Color> FunctionRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) {
+Result<Color> FunctionRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
+                                            RequestMonitor& monitor) {
     const emca_settings asked = toC(settings);
     emca_recording sink(recording);
     emca_color value{};
@@ -149,15 +170,17 @@ Result<Color> FunctionRenderer::renderPixel(Pixel pixel, const RenderSettings& s
     return color(value);
 }
 
-Result<std::vector<Color>> FunctionRenderer::renderPixels(const std::vector<Pixel>& pixels, const RenderSettings& settings, Recording& recording,
+Result<std::vector<Color>> FunctionRenderer::renderPixels(const std::vector<Pixel>& pixels,
+                                                          const RenderSettings& settings, Recording& recording,
                                                           RequestMonitor& monitor) {
     if (!c_.render_pixels) return Renderer::renderPixels(pixels, settings, recording, monitor);
     const emca_settings asked = toC(settings);
     emca_recording sink(recording);
     std::vector<Color> values(pixels.size());
     emca_error error{};
-    const emca_code code = c_.render_pixels(c_.user, reinterpret_cast<const emca_pixel*>(pixels.data()), pixels.size(), &asked, &sink,
-                                            handle(monitor), reinterpret_cast<emca_color*>(values.data()), &error);
+    const emca_code code =
+        c_.render_pixels(c_.user, reinterpret_cast<const emca_pixel*>(pixels.data()), pixels.size(), &asked, &sink,
+                         handle(monitor), reinterpret_cast<emca_color*>(values.data()), &error);
     reportMisuse();
     if (code != EMCA_OK) return errorOf(code, error, "render_pixels");
     return values;
@@ -182,9 +205,13 @@ emca_code emca_add_mesh(emca_mesh_list* list, const emca_mesh* given, emca_error
     return c::guarded(error, [&]() -> emca_code {
         const auto mesh = c::sized(given, EMCA_SIZE_UP_TO(emca_mesh, emission), "emca_mesh");
         if (!mesh) return c::fail(error, mesh.error());
-        if ((mesh->positions == nullptr && mesh->position_count > 0) || (mesh->triangles == nullptr && mesh->triangle_count > 0))
+        if ((mesh->positions == nullptr && mesh->position_count > 0) ||
+            (mesh->triangles == nullptr && mesh->triangle_count > 0))
             return c::invalid(error, "A mesh announces vertices or triangles, but the pointer to them is null.");
-        Mesh copy{.name = c::text(mesh->name), .material = c::text(mesh->material), .diffuse = c::color(mesh->diffuse), .emission = c::color(mesh->emission)};
+        Mesh copy{.name = c::text(mesh->name),
+                  .material = c::text(mesh->material),
+                  .diffuse = c::color(mesh->diffuse),
+                  .emission = c::color(mesh->emission)};
         copy.positions.reserve(mesh->position_count);
         for (std::uint64_t i = 0; i < mesh->position_count; ++i) copy.positions.push_back(c::vec(mesh->positions[i]));
         copy.triangles.reserve(mesh->triangle_count);
@@ -197,7 +224,8 @@ emca_code emca_add_mesh(emca_mesh_list* list, const emca_mesh* given, emca_error
 }
 
 emca_code emca_add_layer(emca_layer_list* list, const emca_layer_description* layer, emca_error* error) {
-    if (list == nullptr) return c::invalid(error, "emca_add_layer needs the list that the function `surface_layers` got.");
+    if (list == nullptr)
+        return c::invalid(error, "emca_add_layer needs the list that the function `surface_layers` got.");
     return c::guarded(error, [&]() -> emca_code {
         auto checked = c::description(layer);
         if (!checked) return c::fail(error, checked.error());

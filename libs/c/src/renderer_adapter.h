@@ -14,17 +14,20 @@ class FunctionRenderer final : public Renderer {
   public:
     /// \param functions  complete: checkedRenderer()
     /// \param log        for what a person should hear; may be empty
-    FunctionRenderer(const emca_renderer& functions, std::function<void(const std::string&)> log) : c_(functions), log_(std::move(log)) {}
+    FunctionRenderer(const emca_renderer& functions, std::function<void(const std::string&)> log)
+        : c_(functions), log_(std::move(log)) {}
 
     RendererInfo info() const override;
     Camera camera() const override;
     std::vector<Mesh> meshes() const override;
     Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
     std::vector<LayerDescription> surfaceLayers() const override;
-    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) override;
-    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) override;
-    Result<std::vector<Color>> renderPixels(const std::vector<Pixel>& pixels, const RenderSettings& settings, Recording& recording,
-                                            RequestMonitor& monitor) override;
+    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                RequestMonitor& monitor) override;
+    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
+                              RequestMonitor& monitor) override;
+    Result<std::vector<Color>> renderPixels(const std::vector<Pixel>& pixels, const RenderSettings& settings,
+                                            Recording& recording, RequestMonitor& monitor) override;
 
   private:
     template <typename Call>

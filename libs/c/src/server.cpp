@@ -10,7 +10,8 @@
 using namespace emca;
 
 struct emca_server {
-    emca_server(const emca_renderer& functions, std::function<void(const std::string&)> log) : renderer(functions, std::move(log)) {}
+    emca_server(const emca_renderer& functions, std::function<void(const std::string&)> log)
+        : renderer(functions, std::move(log)) {}
     c::FunctionRenderer renderer;
     std::unique_ptr<Server> server;
     std::string address;
@@ -51,8 +52,10 @@ Result<ServerOptions> options(const emca_server_options* given) {
 
 extern "C" {
 
-emca_code emca_server_start(const emca_renderer* renderer, const emca_server_options* given, emca_server** server, emca_error* error) {
-    if (server == nullptr) return c::invalid(error, "emca_server_start was given null for the server: pass the address of a pointer.");
+emca_code emca_server_start(const emca_renderer* renderer, const emca_server_options* given, emca_server** server,
+                            emca_error* error) {
+    if (server == nullptr)
+        return c::invalid(error, "emca_server_start was given null for the server: pass the address of a pointer.");
     *server = nullptr;
     return c::guarded(error, [&]() -> emca_code {
         const auto functions = c::checkedRenderer(renderer);

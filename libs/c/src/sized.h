@@ -11,8 +11,8 @@ namespace emca::c {
 /// No struct of ours will ever be larger: a size beyond it is a member that nobody set.
 inline constexpr std::uint32_t kLargestStruct = 1u << 16;
 
-/// Copies a struct that the caller filled, whose `size` says how much of it there was when the caller was compiled: what
-/// it lacks is 0. What a newer caller has beyond ours must be 0, since nobody here would know what it means.
+/// Copies a struct that the caller filled, whose `size` says how much of it there was when the caller was compiled:
+/// what it lacks is 0. What a newer caller has beyond ours must be 0, since nobody here would know what it means.
 ///
 /// \param first  size of its first version: what every caller has
 /// \param name   for people: "emca_renderer"
@@ -25,14 +25,16 @@ Result<T> sized(const T* given, std::size_t first, const char* name) {
     std::memcpy(header, given, sizeof header);
     const auto [size, version] = header;
     if (size < first || size > kLargestStruct)
-        return Error{ErrorCode::invalidArgument, std::string(name) + " says that it has " + std::to_string(size) + " bytes, but it has at least " +
-                                                     std::to_string(first) + ": set `size` and `version` with EMCA_SIZED(" + name + ")."};
+        return Error{ErrorCode::invalidArgument, std::string(name) + " says that it has " + std::to_string(size) +
+                                                     " bytes, but it has at least " + std::to_string(first) +
+                                                     ": set `size` and `version` with EMCA_SIZED(" + name + ")."};
     emca_error mismatch{};
     if (emca_check_abi(version, &mismatch) != EMCA_OK) return Error{ErrorCode::versionMismatch, mismatch.message};
     const auto* bytes = reinterpret_cast<const unsigned char*>(given);
     for (std::size_t i = sizeof(T); i < size; ++i)
         if (bytes[i] != 0)
-            return Error{ErrorCode::versionMismatch, std::string(name) + " says something that this libemca.so (EMCA " EMCA_VERSION
+            return Error{ErrorCode::versionMismatch, std::string(name) +
+                                                         " says something that this libemca.so (EMCA " EMCA_VERSION
                                                          ") does not know yet: install a newer one."};
     T copy;
     std::memset(&copy, 0, sizeof copy);

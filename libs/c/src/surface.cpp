@@ -51,8 +51,10 @@ Result<LayerDescription> description(const emca_layer_description* given) {
     if (layer->name == nullptr || *layer->name == '\0')
         return Error{ErrorCode::invalidArgument, "A surface layer has no name: requests address it by that."};
     if (layer->kind < EMCA_LAYER_MEAN || layer->kind > EMCA_LAYER_DENSITY)
-        return Error{ErrorCode::invalidArgument, "The surface layer \"" + text(layer->name) + "\" is of kind " + std::to_string(layer->kind) + ", but kinds are 0 to 3."};
-    return LayerDescription{text(layer->name), static_cast<LayerKind>(layer->kind), text(layer->unit), text(layer->description)};
+        return Error{ErrorCode::invalidArgument, "The surface layer \"" + text(layer->name) + "\" is of kind " +
+                                                     std::to_string(layer->kind) + ", but kinds are 0 to 3."};
+    return LayerDescription{text(layer->name), static_cast<LayerKind>(layer->kind), text(layer->unit),
+                            text(layer->description)};
 }
 
 }  // namespace emca::c
@@ -70,10 +72,13 @@ emca_layer emca_find_layer(const emca_surface* surface, const char* name) {
     return layer;
 }
 
-emca_code emca_add_surface_layer(emca_surface* surface, const emca_layer_description* description, emca_layer* layer, emca_error* error) {
+emca_code emca_add_surface_layer(emca_surface* surface, const emca_layer_description* description, emca_layer* layer,
+                                 emca_error* error) {
     if (layer != nullptr) *layer = emca_layer{{0}};
     if (surface == nullptr || layer == nullptr)
-        return c::invalid(error, "emca_add_surface_layer needs the surface that render_image_with_layers got, and the address of a layer.");
+        return c::invalid(
+            error,
+            "emca_add_surface_layer needs the surface that render_image_with_layers got, and the address of a layer.");
     return c::guarded(error, [&]() -> emca_code {
         auto wanted = c::description(description);
         if (!wanted) return c::fail(error, wanted.error());
@@ -93,19 +98,26 @@ emca_surface_cursor* emca_thread_surface_cursor(emca_surface* surface) {
 emca_surface_point emca_locate(emca_surface_cursor* cursor, uint32_t mesh, uint32_t face, emca_vec3f position) {
     emca_surface_point at = {{0}};
     if (cursor != nullptr)
-        c::quiet([&] { at = packed<emca_surface_point>(of(cursor).locate(mesh, face, Vec3f{position.x, position.y, position.z})); });
+        c::quiet([&] {
+            at = packed<emca_surface_point>(of(cursor).locate(mesh, face, Vec3f{position.x, position.y, position.z}));
+        });
     return at;
 }
 
-emca_surface_point emca_locate_barycentric(emca_surface_cursor* cursor, uint32_t mesh, uint32_t face, emca_vec2f barycentrics) {
+emca_surface_point emca_locate_barycentric(emca_surface_cursor* cursor, uint32_t mesh, uint32_t face,
+                                           emca_vec2f barycentrics) {
     emca_surface_point at = {{0}};
     if (cursor != nullptr)
-        c::quiet([&] { at = packed<emca_surface_point>(of(cursor).locate(mesh, face, Vec2f{barycentrics.x, barycentrics.y})); });
+        c::quiet([&] {
+            at = packed<emca_surface_point>(of(cursor).locate(mesh, face, Vec2f{barycentrics.x, barycentrics.y}));
+        });
     return at;
 }
 
 void emca_layer_add(emca_layer layer, const emca_surface_point* at, float value) { add(layer, at, value); }
-void emca_layer_add_color(emca_layer layer, const emca_surface_point* at, emca_color value) { add(layer, at, Color(value.r, value.g, value.b)); }
+void emca_layer_add_color(emca_layer layer, const emca_surface_point* at, emca_color value) {
+    add(layer, at, Color(value.r, value.g, value.b));
+}
 
 void emca_pass_done(emca_surface* surface, double part) {
     if (surface == nullptr) return;
