@@ -87,11 +87,10 @@ Spectrum PathTracer::sample(Pixel pixel, std::uint32_t index) {
 
 Spectrum PathTracer::emcaSample(Pixel pixel, PathRecorder emca) {
     const ::Scene& scene = scene_.scene();
-    const Vector2 uFilm{random_.next(), random_.next()};
-    const Vector2 screen{(Real(pixel.x) + uFilm.x) / scene.camera.width, (Real(pixel.y) + uFilm.y) / scene.camera.height};
+    // Compilers choose which of two arguments comes first. Written as in lajolla, both integrators have the same paths.
+    const Vector2 screen((Real(pixel.x) + random_.next()) / scene.camera.width, (Real(pixel.y) + random_.next()) / scene.camera.height);
     const Ray ray = sample_primary(scene.camera, screen);
     emca.setPathOrigin(ray.org);
-    emca.addPathData("random numbers (pixel)", [&] { return Vec2d{double(uFilm.x), double(uFilm.y)}; });
     emca.addPathData("film position", [&] { return Vec2d{double(screen.x) * scene.camera.width, double(screen.y) * scene.camera.height}; });
     return EmcaPath(scene_, scene.options.max_depth)
         .radiance(ray, init_ray_differential(scene.camera.width, scene.camera.height), random_, emca, tally_ ? &*tally_ : nullptr);

@@ -5,8 +5,8 @@
 #include "observer.h"
 
 #define EMCA_WRAPPED(result, name, ...)                                     \
-    result real_##name(__VA_ARGS__) __asm__("__real_" EMCA_LAJOLLA_##name); \
-    __attribute__((used)) result wrap_##name(__VA_ARGS__) __asm__("__wrap_" EMCA_LAJOLLA_##name)
+    result real_##name(__VA_ARGS__) __asm__("__real_" EMCA_NAME_##name); \
+    __attribute__((used)) result wrap_##name(__VA_ARGS__) __asm__("__wrap_" EMCA_NAME_##name)
 
 using emca::lajolla::cameraRayOverride;
 using emca::lajolla::currentObserver;
