@@ -12,12 +12,8 @@
 
 namespace emca::explorer {
 
-void OutlierModel::setReport(const PathSet& paths, const analysis::OutlierReport& report,
-                             analysis::PathQuantity quantity) {
-    beginResetModel();
-    found_.clear();
-    found_.reserve(report.outliers.size());
-    tested_ = !report.steps.empty();
+void OutlierModel::add(const PathSet& paths, const analysis::OutlierReport& report, analysis::PathQuantity quantity) {
+    tested_ = tested_ || !report.steps.empty();
     const bool several = severalPixels(paths);
     for (const Index path : report.outliers) {
         const double value =
@@ -32,6 +28,13 @@ void OutlierModel::setReport(const PathSet& paths, const analysis::OutlierReport
                           step == report.steps.end() ? kNone : step->statistic,
                           step == report.steps.end() ? kNone : step->critical});
     }
+}
+
+void OutlierModel::setReports(const PathSet& paths, std::span<const analysis::PixelOutliers> reports, analysis::PathQuantity quantity) {
+    beginResetModel();
+    found_.clear();
+    tested_ = false;
+    for (const analysis::PixelOutliers& one : reports) add(paths, one.report, quantity);
     const auto rank = [](const Found& f) {
         return std::isfinite(f.deviations) ? std::abs(f.deviations) : std::numeric_limits<double>::infinity();
     };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QAbstractTableModel>
+#include <span>
 #include <vector>
 
 #include "emca/analysis/outliers.h"
@@ -24,7 +25,8 @@ class OutlierModel : public QAbstractTableModel {
 
     explicit OutlierModel(QObject* parent = nullptr) : QAbstractTableModel(parent) {}
     /// Farthest first, NaN and infinite values before all others.
-    void setReport(const PathSet& paths, const analysis::OutlierReport& report, analysis::PathQuantity quantity);
+    /// \param reports  of all paths, or of the paths of each pixel: a path is so far from the mean of its report
+    void setReports(const PathSet& paths, std::span<const analysis::PixelOutliers> reports, analysis::PathQuantity quantity);
     const std::vector<Found>& found() const { return found_; }
     /// Sorted, as a Selection wants them.
     std::vector<client::PathId> ids() const;
@@ -35,6 +37,7 @@ class OutlierModel : public QAbstractTableModel {
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
   private:
+    void add(const PathSet& paths, const analysis::OutlierReport& report, analysis::PathQuantity quantity);
     std::vector<Found> found_;
     QString quantity_;
     bool tested_ = false;   ///< by the ESD test

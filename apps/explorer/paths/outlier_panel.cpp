@@ -17,6 +17,7 @@
 #include <algorithm>
 
 #include "base/grouped.h"
+#include "base/path_ids.h"
 #include "base/qt_compat.h"
 #include "base/state_overlay.h"
 #include "base/table_text.h"
@@ -61,6 +62,7 @@ OutlierPanel::OutlierPanel(client::Dataset& dataset, client::Selection& selectio
       maximum_(new QSpinBox),
       significance_(new QDoubleSpinBox),
       upperOnly_(new QCheckBox(tr("bright side only"))),
+      perPixel_(new QCheckBox(tr("each pixel for itself"))),
       automatic_(new QCheckBox(tr("select on new pixels"))),
       summary_(new QLabel),
       table_(new QTableView),
@@ -119,6 +121,7 @@ void OutlierPanel::build() {
     auto* switches = new QHBoxLayout;
     switches->setSpacing(Spacing::large);
     switches->addWidget(upperOnly_);
+    switches->addWidget(perPixel_);
     switches->addWidget(automatic_);
     switches->addStretch(1);
     auto* bottom = new QHBoxLayout;
@@ -141,6 +144,8 @@ void OutlierPanel::styleTable() {
     quantity_->setToolTip(tr("What stands out: radiance in W/(sr m²), or depth in vertices"));
     deviations_->setToolTip(tr("Paths farther from the mean than so many standard deviations σ"));
     upperOnly_->setToolTip(tr("Only paths above the mean"));
+    perPixel_->setToolTip(tr("Each path against the paths of its own pixel. Otherwise against those of the whole region,\n"
+                             "where the paths of a bright pixel stand out from those of a dark one."));
     automatic_->setToolTip(tr("Selects what is found whenever another pixel is shown"));
     select_->setToolTip(tr("Makes these paths the selection of all views"));
     table_->setContextMenuPolicy(Qt::CustomContextMenu);
@@ -184,6 +189,7 @@ void OutlierPanel::connectControls() {
         options_.upperOnly = on;
         detect();
     });
+    connect(perPixel_, &QCheckBox::toggled, this, &OutlierPanel::detect);
     connect(automatic_, &QCheckBox::toggled, this, [this](bool on) {
         if (on) selectFound();
     });
@@ -223,19 +229,47 @@ void OutlierPanel::setOptions(const analysis::OutlierOptions& options) {
     upperOnly_->setChecked(options.upperOnly);
 }
 
+bool OutlierPanel::isPerPixel() const { return perPixel_->isChecked(); }
+
+void OutlierPanel::setPerPixel(bool perPixel) { perPixel_->setChecked(perPixel); }
+
+bool OutlierPanel::comparesPixels() const { return isPerPixel() && severalPixels(dataset_.paths()); }
+
 bool OutlierPanel::isAutomatic() const { return automatic_->isChecked(); }
 
 void OutlierPanel::setAutomatic(bool automatic) { automatic_->setChecked(automatic); }
 
+Result<void> OutlierPanel::report() {
+    reports_.clear();
+    sum_ = {};
+    const PathSet& paths = dataset_.paths();
+    if (!comparesPixels()) {
+        auto all = analysis::detectOutliers(paths, options_);
+        if (!all) return all.error();
+        sum_ = *all;
+        reports_.push_back({paths.empty() ? Pixel() : paths.pixel(0), std::move(all).value()});
+        return {};
+    }
+    auto each = analysis::detectOutliersPerPixel(paths, options_);
+    if (!each) return each.error();
+    reports_ = std::move(each).value();
+    for (const analysis::PixelOutliers& one : reports_) {
+        sum_.outliers.insert(sum_.outliers.end(), one.report.outliers.begin(), one.report.outliers.end());
+        sum_.considered += one.report.considered;
+        sum_.notFinite += one.report.notFinite;
+        sum_.withoutValue += one.report.withoutValue;
+    }
+    return {};
+}
+
 void OutlierPanel::detect() {
-    const Result<analysis::OutlierReport> report = analysis::detectOutliers(dataset_.paths(), options_);
-    report_ = report ? *report : analysis::OutlierReport();
+    const Result<void> reported = report();
     {
         const QScopedValueRollback<bool> guard(marking_, true);
-        model_->setReport(dataset_.paths(), report_, options_.quantity);
+        model_->setReports(dataset_.paths(), reports_, options_.quantity);
     }
     updateState();
-    if (!report) overlay_->showError(toQString(report.error().message));
+    if (!reported) overlay_->showError(toQString(reported.error().message));
     written_.reset();
     follow();
 }
@@ -247,33 +281,49 @@ void OutlierPanel::reload() {
 
 QString OutlierPanel::summaryText() const {
     if (dataset_.paths().empty()) return {};
-    QString text = tr("%1 of %2 paths.").arg(grouped(report_.outliers.size()), grouped(dataset_.paths().pathCount()));
-    const bool test = options_.method == OutlierMethod::generalizedEsd;
-    if (test) text += '\n' + testText();
-    text += tr("\n%1: mean %2, σ %3").arg(test ? tr("The others") : tr("All"), number(report_.mean), number(report_.deviation));
-    // Without limits there is nothing to be beyond.
-    if (report_.considered >= 2 && report_.deviation > 0) {
-        if (test) text += tr("; from %1 to %2").arg(number(report_.lower), number(report_.upper));
-        else if (options_.upperOnly) text += tr("; limit %1").arg(number(report_.upper));
-        else text += tr("; limits %1 and %2").arg(number(report_.lower), number(report_.upper));
-    }
-    if (report_.notFinite > 0) text += tr("; %1 NaN or infinite").arg(grouped(report_.notFinite));
-    if (report_.withoutValue > 0) text += tr("; %1 without final estimate").arg(grouped(report_.withoutValue));
+    QString text = tr("%1 of %2 paths").arg(grouped(sum_.outliers.size()), grouped(dataset_.paths().pathCount()));
+    text += comparesPixels() ? perPixelText() : limitsText();
+    if (sum_.notFinite > 0) text += tr("; %1 NaN or infinite").arg(grouped(sum_.notFinite));
+    if (sum_.withoutValue > 0) text += tr("; %1 without final estimate").arg(grouped(sum_.withoutValue));
     return text;
 }
 
+QString OutlierPanel::perPixelText() const {
+    std::size_t with = 0, full = 0;
+    for (const analysis::PixelOutliers& one : reports_) {
+        with += !one.report.outliers.empty();
+        full += one.report.maximumReached();
+    }
+    QString text = tr(", in %1 of %2 pixels.").arg(grouped(with), grouped(reports_.size()));
+    if (full > 0) text += tr("\nIn %1 of them all that were tested: raise \"at most\", there may be more.").arg(grouped(full));
+    return text + tr("\nEach against mean and σ of its own pixel");
+}
+
+QString OutlierPanel::limitsText() const {
+    const bool test = options_.method == OutlierMethod::generalizedEsd;
+    QString text(QLatin1Char('.'));
+    if (test) text += '\n' + testText();
+    text += tr("\n%1: mean %2, σ %3").arg(test ? tr("The others") : tr("All"), number(sum_.mean), number(sum_.deviation));
+    // Without limits there is nothing to be beyond.
+    if (sum_.considered < 2 || !(sum_.deviation > 0)) return text;
+    if (test) return text + tr("; from %1 to %2").arg(number(sum_.lower), number(sum_.upper));
+    if (options_.upperOnly) return text + tr("; limit %1").arg(number(sum_.upper));
+    return text + tr("; limits %1 and %2").arg(number(sum_.lower), number(sum_.upper));
+}
+
 QString OutlierPanel::testText() const {
-    if (report_.maximumReached()) return tr("Every one that was tested: raise \"at most\", there may be more.");
-    const std::size_t found = report_.outliers.size() - report_.notFinite;
-    if (found >= report_.steps.size()) return {};
-    const analysis::EsdStep& next = report_.steps[found];
+    if (sum_.maximumReached()) return tr("Every one that was tested: raise \"at most\", there may be more.");
+    const std::size_t found = sum_.outliers.size() - sum_.notFinite;
+    if (found >= sum_.steps.size()) return {};
+    const analysis::EsdStep& next = sum_.steps[found];
     return tr("%1 tested; the next one, %2, has R = %3, its limit is %4.")
-        .arg(grouped(report_.steps.size()), number(next.value), number(next.statistic), number(next.critical));
+        .arg(grouped(sum_.steps.size()), number(next.value), number(next.statistic), number(next.critical));
 }
 
 void OutlierPanel::updateState() {
     summary_->setText(summaryText());
     select_->setEnabled(!model_->found().empty());
+    perPixel_->setVisible(severalPixels(dataset_.paths()));
     if (dataset_.paths().empty()) {
         overlay_->showEmpty(tr("Outliers of a pixel"), tr("Click a pixel in the image"));
     } else if (model_->found().empty()) {

@@ -31,6 +31,9 @@ class OutlierPanel : public QWidget {
 
     const analysis::OutlierOptions& options() const { return options_; }
     void setOptions(const analysis::OutlierOptions& options);
+    /// Of a region: each path against the paths of its own pixel, not against all.
+    bool isPerPixel() const;
+    void setPerPixel(bool perPixel);
     bool isAutomatic() const;
     /// Selects what is found whenever another pixel is shown.
     void setAutomatic(bool automatic);
@@ -53,6 +56,10 @@ class OutlierPanel : public QWidget {
     void connectControls();
     void showParameters();
     QString testText() const;  ///< what the ESD test says, step by step
+    QString limitsText() const;
+    QString perPixelText() const;
+    bool comparesPixels() const;   ///< there are several, and each counts for itself
+    Result<void> report();
     void detect();
     void reload();
     void follow();  ///< marks in the list what the Selection says
@@ -63,7 +70,9 @@ class OutlierPanel : public QWidget {
     client::Dataset& dataset_;
     client::Selection& selection_;
     analysis::OutlierOptions options_;
-    analysis::OutlierReport report_;
+    /// One of all paths, or one for each pixel; `sum_` is the only one, or counts of all.
+    std::vector<analysis::PixelOutliers> reports_;
+    analysis::OutlierReport sum_;
     OutlierModel* model_;
     QComboBox* quantity_;
     QComboBox* method_;
@@ -71,6 +80,7 @@ class OutlierPanel : public QWidget {
     QSpinBox* maximum_;
     QDoubleSpinBox* significance_;
     QCheckBox* upperOnly_;
+    QCheckBox* perPixel_;
     QCheckBox* automatic_;
     QLabel* summary_;
     QTableView* table_;

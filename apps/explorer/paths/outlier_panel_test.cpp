@@ -158,14 +158,48 @@ TEST_F(OutlierPanelTest, TheTestRunsByItselfOnNewPixels) {
     EXPECT_EQ(selection.state().currentPath, id(417)) << "the farthest";
 }
 
+/// A dark pixel with a firefly beside a bright one with none: together the bright pixel is what stands out.
+TEST_F(OutlierPanelTest, EachPixelOfARegionForItself) {
+    std::vector<PathSet> pixels;
+    for (const float bright : {0.1f, 100.f}) {
+        std::vector<Color> estimates;
+        for (int i = 0; i < 64; ++i) estimates.emplace_back(bright * (1 + 0.02f * float(i % 7)));
+        if (bright < 1) estimates[17] = Color(2.f);
+        pixels.push_back(test::pathsWithEstimates(estimates, {1, 2}, bright < 1 ? Pixel{174, 169} : Pixel{175, 169}));
+    }
+    auto* perPixel = [&]() -> QCheckBox* {
+        for (QCheckBox* box : panel.findChildren<QCheckBox*>())
+            if (box->text() == "each pixel for itself") return box;
+        return nullptr;
+    }();
+    ASSERT_TRUE(perPixel);
+    EXPECT_FALSE(perPixel->isVisible()) << "there is one pixel at most";
+    dataset.addTrace(test::traceOf(PathSet::merged(pixels)));
+    EXPECT_TRUE(panel.model().found().empty()) << panel.summaryText().toStdString();
+    ASSERT_TRUE(perPixel->isVisible());
+    QTest::mouseClick(perPixel, Qt::LeftButton, {}, {8, perPixel->height() / 2});
+    ASSERT_TRUE(panel.isPerPixel());
+    ASSERT_EQ(panel.model().found().size(), 1u);
+    EXPECT_EQ(panel.model().found()[0].id, id(17));
+    EXPECT_GT(panel.model().found()[0].deviations, 5) << "of its own pixel";
+    EXPECT_TRUE(panel.summaryText().startsWith("1 of 128 paths, in 1 of 2 pixels.")) << panel.summaryText().toStdString();
+    panel.selectFound();
+    EXPECT_EQ(selection.state().paths, std::vector<PathId>{id(17)});
+    panel.setOptions({.method = analysis::OutlierMethod::generalizedEsd, .maximum = 1});
+    EXPECT_TRUE(panel.summaryText().contains("there may be more")) << panel.summaryText().toStdString();
+    dataset.addTrace(test::traceOf(pixels[0]));
+    EXPECT_FALSE(perPixel->isVisible());
+    EXPECT_TRUE(panel.summaryText().contains("1 of 64 paths.")) << "one pixel: as ever";
+}
+
 TEST(OutlierModel, ObeysTheRulesOfItemModels) {
     OutlierModel model;
     QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::Fatal);
     const PathSet paths = fakePaths({.samples = 64, .vertices = 0});
-    const auto report = analysis::detectOutliers(paths, {.deviations = 1});
-    ASSERT_TRUE(report.ok());
-    model.setReport(paths, *report, analysis::PathQuantity::luminance);
-    EXPECT_EQ(model.rowCount(), int(report->outliers.size()));
+    const auto reports = analysis::detectOutliersPerPixel(paths, {.deviations = 1});
+    ASSERT_TRUE(reports.ok());
+    model.setReports(paths, *reports, analysis::PathQuantity::luminance);
+    EXPECT_EQ(model.rowCount(), int(reports->front().report.outliers.size()));
 }
 
 }  // namespace

@@ -47,14 +47,40 @@ Result<OutlierReport> detectOutliers(std::span<const double> values, const Outli
     return report;
 }
 
+namespace {
+
+/// Of some neighbours in a series. \param paths  how many there are with and without a value
+Result<OutlierReport> detectIn(const PathSeries& series, std::size_t first, std::size_t last, std::size_t paths, const OutlierOptions& options) {
+    Result<OutlierReport> report = detectOutliers(std::span<const double>(series.values).subspan(first, last - first), options);
+    if (!report) return report;
+    report->withoutValue = paths - (last - first);
+    for (Index& i : report->outliers) i = series.paths[first + i];
+    for (EsdStep& step : report->steps) step.index = series.paths[first + step.index];
+    return report;
+}
+
+}  // namespace
+
 Result<OutlierReport> detectOutliers(const PathSet& paths, const OutlierOptions& options) {
     const PathSeries series = pathSeries(paths, options.quantity);
-    Result<OutlierReport> report = detectOutliers(std::span<const double>(series.values), options);
-    if (!report) return report;
-    report->withoutValue = paths.pathCount() - series.size();
-    for (Index& i : report->outliers) i = series.paths[i];
-    for (EsdStep& step : report->steps) step.index = series.paths[step.index];
-    return report;
+    return detectIn(series, 0, series.size(), paths.pathCount(), options);
+}
+
+Result<std::vector<PixelOutliers>> detectOutliersPerPixel(const PathSet& paths, const OutlierOptions& options) {
+    // So that wrong options are an error whether there are paths or not.
+    if (const auto valid = detectOutliers(std::span<const double>(), options); !valid) return valid.error();
+    const PathSeries series = pathSeries(paths, options.quantity);
+    std::vector<PixelOutliers> result;
+    std::size_t first = 0, last = 0;   // of the series; paths are in the order of pixels
+    for (Index begin = 0, end = 0; begin < paths.pathCount(); begin = end, first = last) {
+        const Pixel pixel = paths.pixel(begin);
+        while (end < paths.pathCount() && paths.pixel(end) == pixel) ++end;
+        while (last < series.size() && series.paths[last] < end) ++last;
+        auto report = detectIn(series, first, last, end - begin, options);
+        if (!report) return report.error();
+        result.push_back({pixel, std::move(report).value()});
+    }
+    return result;
 }
 
 }  // namespace emca::analysis

@@ -91,5 +91,49 @@ TEST(Outliers, RefuseNonsense) {
     }
 }
 
+/// Each pixel as if it had been traced alone.
+TEST(OutliersPerPixel, AreThoseOfEachPixelAlone) {
+    std::mt19937_64 random(3);
+    std::vector<PathSet> alone;
+    for (std::uint32_t pixel = 0; pixel < 6; ++pixel) {
+        std::vector<TestPath> all;
+        for (std::int64_t sample = 0; sample < 40; ++sample) {
+            TestPath path;
+            path.sample = sample;
+            // Pixels of very different brightness: together their fireflies hide.
+            const float bright = std::pow(30.f, static_cast<float>(pixel));
+            path.estimate = Color(bright * (1 + 0.1f * static_cast<float>(std::normal_distribution<double>()(random))));
+            if (sample == 7 + pixel) path.estimate = Color(bright * 5);
+            if (pixel == 4 && sample == 3) path.estimate = Color(std::numeric_limits<float>::quiet_NaN());
+            if (pixel == 2 && sample == 5) path.estimate.reset();
+            all.push_back(path);
+        }
+        alone.push_back(makePathSet(all, {pixel % 3, pixel / 3}));
+    }
+    const PathSet paths = PathSet::merged(alone);
+    for (const OutlierMethod method : {OutlierMethod::meanDeviation, OutlierMethod::generalizedEsd}) {
+        const OutlierOptions options{.method = method};
+        const auto found = detectOutliersPerPixel(paths, options);
+        ASSERT_TRUE(found.ok());
+        ASSERT_EQ(found->size(), 6u);
+        for (std::size_t i = 0; i < 6; ++i) {
+            const OutlierReport& report = (*found)[i].report;
+            const auto expected = detectOutliers(alone[i], options);
+            ASSERT_TRUE(expected.ok());
+            EXPECT_EQ((*found)[i].pixel, alone[i].pixel(0));
+            ASSERT_EQ(report.outliers.size(), expected->outliers.size());
+            EXPECT_GE(report.outliers.size(), 1u) << "its firefly";
+            for (std::size_t k = 0; k < report.outliers.size(); ++k) EXPECT_EQ(report.outliers[k], 40 * i + expected->outliers[k]);
+            for (std::size_t k = 0; k < report.steps.size(); ++k) EXPECT_EQ(report.steps[k].index, 40 * i + expected->steps[k].index);
+            EXPECT_EQ(report.mean, expected->mean);
+            EXPECT_EQ(report.upper, expected->upper);
+            EXPECT_EQ(report.withoutValue, expected->withoutValue);
+            EXPECT_EQ(report.notFinite, expected->notFinite);
+        }
+    }
+    EXPECT_TRUE(detectOutliersPerPixel(PathSet())->empty());
+    EXPECT_FALSE(detectOutliersPerPixel(PathSet(), {.deviations = -1}).ok());
+}
+
 }  // namespace
 }  // namespace emca::analysis

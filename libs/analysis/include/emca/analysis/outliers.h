@@ -59,4 +59,13 @@ Result<OutlierReport> detectOutliers(const PathSet& paths, const OutlierOptions&
 /// The same on any values; `quantity` is not read.
 Result<OutlierReport> detectOutliers(std::span<const double> values, const OutlierOptions& options = {});
 
+/// The outliers of one pixel among several.
+struct PixelOutliers {
+    Pixel pixel;
+    OutlierReport report;   ///< indices are positions in the PathSet
+};
+/// Each path against the paths of its own pixel: in a region, where the pixels of a lamp are brighter than all others, these
+/// are the paths that make noise. One entry for each pixel that has paths, in their order. Errors: as detectOutliers.
+Result<std::vector<PixelOutliers>> detectOutliersPerPixel(const PathSet& paths, const OutlierOptions& options = {});
+
 }  // namespace emca::analysis
