@@ -103,10 +103,10 @@ static uint32_t face_at(vec normal) {
 
 typedef struct { emca_surface_cursor* cursor; emca_layer density, throughput; } layers;  // all null: nothing is collected
 
-static color trace(ray r, uint64_t* random, const layers* collect) {           // function trace(ray):
+static color trace(ray r, uint64_t* random, int max_bounces, const layers* collect) {  // function trace(ray):
     emca_recorder* emca = emca_thread_recorder();                              //   import emca
     color radiance = {0, 0, 0}, throughput = {1, 1, 1};                        //   L = Color(0), T = Color(1)
-    for (int bounce = 1; bounce <= MAX_BOUNCES; ++bounce) {                    //   for bounce=1 to max bounces do
+    for (int bounce = 1; bounce <= max_bounces; ++bounce) {                    //   for bounce=1 to max bounces do
         const hit its = intersect(r);                                          //     its = scene.intersect(ray)
         emca_set_depth_index(emca, bounce, EMCA_CAMERA_SUBPATH);               //     emca->setDepthIndex(bounce)
         if (its.sphere < 0) {                                                  //     if no intersection then
@@ -160,7 +160,7 @@ static color add_samples(color sum, emca_pixel pixel, uint32_t begin, uint32_t e
         emca_set_path_index(emca, sample, 0);                                  //     emca->setPathIndex(sample)
         const ray r = camera_ray(pixel, &random);                              //     ray = sample camera ray for pixel (x, y)
         emca_set_path_origin(emca, r.origin);                                  //     emca->setPathOrigin(ray.origin)
-        sum = plus(sum, trace(r, &random, collect));                           //     L += trace(ray)
+        sum = plus(sum, trace(r, &random, MAX_BOUNCES, collect));              //     L += trace(ray)
     }
     return sum;
 }
@@ -169,7 +169,7 @@ static color mean(color sum, uint32_t samples) {                               /
     return (color){sum.r / (float)samples, sum.g / (float)samples, sum.b / (float)samples};
 }
 
-// What is served: six functions.
+// What is served: some functions.
 
 static emca_code info(void* user, emca_info* info, emca_error* error) {
     (void)user, (void)error;
@@ -266,15 +266,27 @@ static emca_code render_pixel(void* user, emca_pixel pixel, const emca_settings*
     return EMCA_OK;
 }
 
+/// For the explorer's light probe: what arrives along a ray.
+static emca_color radiance(void* worker, const emca_probe_request* request, emca_vec3f origin, emca_vec3f direction,
+                           emca_pixel pixel, uint32_t sample) {
+    (void)worker;
+    const layers none = {0};
+    uint64_t random = emca_seed(request->seed, pixel, sample);
+    const bool limited = request->maximum_depth > 0 && request->maximum_depth < MAX_BOUNCES;
+    return trace((ray){origin, direction}, &random, limited ? request->maximum_depth : MAX_BOUNCES, &none);
+}
+
 int main(int argc, char** argv) {
     const emca_renderer renderer = {EMCA_SIZED(emca_renderer), .info = info, .camera = camera, .meshes = meshes,
         .render_image = render_image, .render_pixel = render_pixel, .surface_layers = surface_layers,
         .render_image_with_layers = render_image_with_layers};
     const emca_server_options options = {EMCA_SIZED(emca_server_options), .allow_quit = true,
         .port = (uint16_t)(argc > 1 ? atoi(argv[1]) : 50013)};
+    const emca_light_probe probe = {EMCA_SIZED(emca_light_probe), .surface_offset = 1e-3f, .radiance = radiance};
     emca_server* server;
     emca_error error;
-    if (emca_server_start(&renderer, &options, &server, &error) != EMCA_OK) {
+    if (emca_server_start(&renderer, &options, &server, &error) != EMCA_OK ||
+        emca_server_add_light_probe(server, &probe, &error) != EMCA_OK) {
         fprintf(stderr, "%s\n", error.message);
         return 4;
     }

@@ -26,7 +26,7 @@ const std::map<std::string, Rule>& rules() {
         {"libs/probe", {{"core", "probe"}, {}}},
         {"libs/protocol", {{"core", "protocol"}, {"flatbuffers/", "emca_generated.h"}}},
         {"libs/server", {{"core", "recorder", "query", "protocol", "server"}, {"asio", "dlfcn.h"}}},
-        {"libs/c", {{"core", "recorder", "server", "c", "emca.h"}, {"stdbool.h", "stddef.h", "stdint.h"}}},
+        {"libs/c", {{"core", "recorder", "server", "adapter", "probe", "c", "emca.h"}, {"stdbool.h", "stddef.h", "stdint.h"}}},
         {"libs/adapter", {{"core", "recorder", "server", "probe", "adapter"}, {"pthread.h", "signal.h"}}},
         {"libs/client", {{"core", "protocol", "client"}, {"asio", "zstd.h", "zlib.h", "fcntl.h", "unistd.h"}}},
         {"libs/imageio", {{"core", "imageio"}, {"OpenEXR/", "OpenImageIO/", "jpeglib.h", "dlfcn.h", "link.h"}}},

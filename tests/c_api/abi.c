@@ -211,6 +211,24 @@ AT(emca_tool, end_path, 64);
 AT(emca_tool, begin_vertex, 72);
 AT(emca_tool, end_vertex, 80);
 
+SIZE(emca_probe_request, 32);
+AT(emca_probe_request, size, 0);
+AT(emca_probe_request, version, 4);
+AT(emca_probe_request, seed, 8);
+AT(emca_probe_request, samples_per_pixel, 16);
+AT(emca_probe_request, maximum_depth, 20);
+AT(emca_probe_request, integrator, 24);
+
+SIZE(emca_light_probe, 48);
+AT(emca_light_probe, size, 0);
+AT(emca_light_probe, version, 4);
+AT(emca_light_probe, user, 8);
+AT(emca_light_probe, surface_offset, 16);
+AT(emca_light_probe, threads, 20);
+AT(emca_light_probe, radiance, 24);
+AT(emca_light_probe, begin, 32);
+AT(emca_light_probe, end, 40);
+
 _Static_assert(EMCA_OK == 0, "");
 _Static_assert(EMCA_INTERNAL == 1, "");
 _Static_assert(EMCA_INVALID_ARGUMENT == 2, "");

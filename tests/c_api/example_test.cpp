@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "emca/client/connection.h"
+#include "emca/probe/light_probe.h"
 #include "process.h"
 
 namespace emca::test {
@@ -157,6 +158,36 @@ TEST(ExampleInC, CollectsItsLayers) {
             EXPECT_LE(value, 1);
         }
     EXPECT_TRUE(any);
+}
+
+TEST(ExampleInC, SeesItsLampInALightProbe) {
+    Example example(EMCA_EXAMPLE);
+    ASSERT_TRUE(example.connection);
+    // Above the middle of the scene, beside the lamp: nothing stands in between.
+    probe::LightProbeRequest request{
+        .position = {0, 5, 8}, .normal = {}, .frame = probe::SphereFrame::around({0, 1, 0}, {0, 0, -1})};
+    request.samplesPerPixel = 64;
+    request.maximumDepth = 1;
+    const auto bytes = example.connection->askTool(probe::kLightProbeTool, probe::encode(request));
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+    const auto answer = probe::decodeProbe(*bytes);
+    ASSERT_TRUE(answer.ok()) << answer.error().message;
+    const Image& image = answer->image;
+    EXPECT_EQ(image.color(answer->map.pixelOf({0, 1, 0})), kSky);
+    EXPECT_EQ(image.color(answer->map.pixelOf({0, -1, 0})), Color()) << "the ground shines not";
+    EXPECT_EQ(image.color(answer->map.pixelOf({0, 0, -1})), kSpheres[3].emission);
+    // The lamp is a sphere at a distance of 7 with a radius of 1, in front of the sky.
+    double excess = 0;
+    for (std::uint32_t y = 0; y < image.height(); ++y)
+        for (std::uint32_t x = 0; x < image.width(); ++x)
+            if (const Color c = image.color({x, y}); c.r > kSky.r)
+                excess += (double(c.r) - double(kSky.r)) * answer->map.solidAngle(y);
+    const double expected = 2 * 3.14159265358979 * (1 - std::sqrt(1 - 1 / 49.)) * (12 - double(kSky.r));
+    EXPECT_NEAR(excess / expected, 1, 5e-3);
+    const auto again = example.connection->askTool(probe::kLightProbeTool, probe::encode(request));
+    ASSERT_TRUE(again.ok());
+    const Image repeated = probe::decodeProbe(*again)->image;
+    EXPECT_TRUE(sameBits(image, repeated)) << "whatever its threads do";
 }
 
 TEST(ExampleInC, SaysWhyItDoesNotServe) {

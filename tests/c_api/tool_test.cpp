@@ -1,7 +1,10 @@
 // Tools made of functions: answers, errors, other tools, and data that they add to a replay.
+#include <atomic>
+#include <cmath>
 #include <cstring>
 #include <string>
 
+#include "emca/probe/light_probe.h"
 #include "everything.h"
 #include "path_text.h"
 #include "served_in_c.h"
@@ -88,6 +91,86 @@ TEST(ToolsInC, AddToReplays) {
     ASSERT_TRUE(trace.ok());
     EXPECT_EQ(told.events, "<4,3 (10[3][2][1][1][3][4])>");
     EXPECT_NE(pathText(trace->paths).find("note int 10"), std::string::npos);
+}
+
+/// What the threads of a probe have of their own.
+struct ProbeLog {
+    std::atomic<int> open = 0, began = 0;
+    bool refuse = false;
+};
+struct ProbeWorker {
+    ProbeLog* log;
+    int rays = 0;
+};
+
+TEST(LightProbeInC, HasWorkersPerThread) {
+    ServedInC served(everything());
+    ProbeLog log;
+    const emca_light_probe probe = {
+        EMCA_SIZED(emca_light_probe),
+        .user = &log,
+        .surface_offset = 0.5f,
+        .threads = 2,
+        .radiance =
+            [](void* worker, const emca_probe_request* request, emca_vec3f origin, emca_vec3f direction,
+               emca_pixel pixel, std::uint32_t sample) {
+                ++static_cast<ProbeWorker*>(worker)->rays;
+                // The normal is upwards: the ray starts 0.5 above or below.
+                return emca_color{origin.y, std::copysign(0.5f, direction.y),
+                                  float(request->maximum_depth) + float(pixel.x) * 1024.f + float(sample) * 0};
+            },
+        .begin = [](void* user, const emca_probe_request* request, void** worker, emca_error* error) -> emca_code {
+            auto* own = static_cast<ProbeLog*>(user);
+            if (std::strcmp(request->integrator, "path") != 0)
+                return emca_fail(error, EMCA_NOT_SUPPORTED, "Only \"path\" is known.");
+            ++own->open, ++own->began;
+            *worker = new ProbeWorker{own};
+            return EMCA_OK;
+        },
+        .end =
+            [](void* user, void* worker) {
+                EXPECT_EQ(user, static_cast<ProbeWorker*>(worker)->log);
+                --static_cast<ProbeLog*>(user)->open;
+                delete static_cast<ProbeWorker*>(worker);
+            }};
+    emca_error error{};
+    ASSERT_EQ(emca_server_add_light_probe(served.server(), &probe, &error), EMCA_OK) << error.message;
+    EXPECT_EQ(emca_server_add_light_probe(served.server(), &probe, &error), EMCA_INVALID_ARGUMENT) << "there is one";
+    probe::LightProbeRequest request{
+        .position = {0, 0, 0}, .normal = {0, 1, 0}, .frame = probe::SphereFrame::around({0, 1, 0}, {0, 0, -1})};
+    request.width = 8, request.height = 6, request.samplesPerPixel = 4, request.maximumDepth = 3;
+    EXPECT_EQ(served.client().askTool("light probe", probe::encode(request)).error().message,
+              "Only \"path\" is known.");
+    request.integrator = "path";
+    const auto bytes = served.client().askTool("light probe", probe::encode(request));
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+    const Image image = probe::decodeProbe(*bytes)->image;
+    for (std::uint32_t y = 0; y < 6; ++y)
+        for (std::uint32_t x = 0; x < 8; ++x)
+            EXPECT_EQ(image.color({x, y}), Color(y < 3 ? 0.5f : -0.5f, y < 3 ? 0.5f : -0.5f, 3 + 1024.f * float(x)));
+    EXPECT_GE(log.began, 1);
+    EXPECT_EQ(log.open, 0);
+}
+
+TEST(LightProbeInC, IsChecked) {
+    ServedInC served(everything());
+    const auto radiance = [](void*, const emca_probe_request*, emca_vec3f, emca_vec3f, emca_pixel, std::uint32_t) {
+        return emca_color{1, 2, 3};
+    };
+    emca_light_probe probe = {EMCA_SIZED(emca_light_probe), .radiance = radiance};
+    EXPECT_EQ(emca_server_add_light_probe(nullptr, &probe, nullptr), EMCA_INVALID_ARGUMENT);
+    EXPECT_EQ(emca_server_add_light_probe(served.server(), nullptr, nullptr), EMCA_INVALID_ARGUMENT);
+    for (const float offset : {-1.f, INFINITY, NAN}) {
+        probe.surface_offset = offset;
+        EXPECT_EQ(emca_server_add_light_probe(served.server(), &probe, nullptr), EMCA_INVALID_ARGUMENT) << offset;
+    }
+    probe.surface_offset = 0;
+    probe.radiance = nullptr;
+    EXPECT_EQ(emca_server_add_light_probe(served.server(), &probe, nullptr), EMCA_INVALID_ARGUMENT);
+    probe.radiance = radiance;
+    probe.size = offsetof(emca_light_probe, begin);
+    EXPECT_EQ(emca_server_add_light_probe(served.server(), &probe, nullptr), EMCA_OK)
+        << "one that has only the first members";
 }
 
 TEST(ToolsInC, AreChecked) {

@@ -1,21 +1,12 @@
 #include "emca/server/server.h"
 
 #include <memory>
-#include <string>
 
 #include "function_tool.h"
-#include "renderer_adapter.h"
+#include "served.h"
 #include "sized.h"
 
 using namespace emca;
-
-struct emca_server {
-    emca_server(const emca_renderer& functions, std::function<void(const std::string&)> log)
-        : renderer(functions, std::move(log)) {}
-    c::FunctionRenderer renderer;
-    std::unique_ptr<Server> server;
-    std::string address;
-};
 
 namespace {
 

@@ -93,6 +93,43 @@ typedef struct emca_tool {
 /// Errors: EMCA_INVALID_ARGUMENT (null, no name, no `answer`, a tool of that name is there), EMCA_VERSION_MISMATCH.
 EMCA_API emca_code emca_server_add_tool(emca_server* server, const emca_tool* tool, emca_error* error);
 
+// The explorer's light probe: what a point sees in all directions. docs/explorer/light-probe.md
+
+/// How a light probe was asked for.
+typedef struct emca_probe_request {
+    uint32_t size, version;
+    uint64_t seed;               ///< the same one gives the same bits from a deterministic renderer
+    uint32_t samples_per_pixel;  ///< at least 1
+    int32_t maximum_depth;       ///< longest path in segments, from the probe on: 1 shows what emits; -1: no limit; 0: as usual
+    const char* integrator;      ///< never null; empty: the renderer's
+} emca_probe_request;
+
+/// What a renderer adds for it; directions, sums and the image are made by the library, the same with any number of
+/// threads.
+typedef struct emca_light_probe {
+    uint32_t size, version;  ///< EMCA_SIZED
+    void* user;              ///< anything; never looked at
+    float surface_offset;    ///< scene units: how far off its surface a ray starts; 1e-4 of the scene's radius is common
+    uint32_t threads;        ///< that render a probe; 0: one per processor; 1 for a renderer that cannot do two things at once
+    /// Radiance that arrives along a ray, linear Rec. 709, W/(sr m^2). Depends on its arguments alone. Emitters are to be
+    /// seen even where an integrator hides them from the camera.
+    /// \param worker     what `begin` made; `user` if there is none
+    /// \param origin     world space, already off the surface on the ray's side
+    /// \param direction  unit, world space
+    emca_color (*radiance)(void* worker, const emca_probe_request* request, emca_vec3f origin, emca_vec3f direction,
+                           emca_pixel pixel, uint32_t sample);
+    /// May be null. In each thread before its first ray: makes what that thread needs (a sampler, memory), or refuses the
+    /// request.
+    emca_code (*begin)(void* user, const emca_probe_request* request, void** worker, emca_error* error);
+    /// May be null. In the same thread, after its last ray.
+    void (*end)(void* user, void* worker);
+} emca_light_probe;
+
+/// Adds the tool "light probe". The struct is copied, `user` must stay until emca_server_destroy.
+/// Errors: EMCA_INVALID_ARGUMENT (null, no `radiance`, an offset that is negative or not finite, there is one already),
+/// EMCA_VERSION_MISMATCH.
+EMCA_API emca_code emca_server_add_light_probe(emca_server* server, const emca_light_probe* probe, emca_error* error);
+
 #ifdef __cplusplus
 }
 #endif
