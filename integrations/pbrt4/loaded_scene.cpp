@@ -76,6 +76,18 @@ std::vector<pbrt::ParsedParameter> copied(const pbrt::ParameterDictionary& dicti
     return parameters;
 }
 
+/// Whether pbrt's table of points fills the pixels of a tile evenly: if not, its sampler ends the process. (A pbrt whose
+/// table was replaced by another one is seen so.)
+bool pmjTableHolds(int samples) {
+    const int tile = 1 << (pbrt::Log4Int(pbrt::nPMJ02bnSamples) - pbrt::Log4Int(pbrt::RoundUpPow4(samples)));
+    std::vector<int> points(std::size_t(tile) * std::size_t(tile));
+    for (int i = 0; i < pbrt::nPMJ02bnSamples; ++i) {
+        const pbrt::Point2f p = pbrt::GetPMJ02BNSample(0, i) * tile;
+        ++points[std::size_t(int(p.x) + int(p.y) * tile)];
+    }
+    return std::all_of(points.begin(), points.end(), [&](int n) { return n >= samples && (n == samples || !pbrt::IsPowerOf4(samples)); });
+}
+
 Error unknownIntegrator(const std::string& name) {
     const std::string known = std::string(kOwnIntegrator) + ", " + listed(kObserved);
     for (const char* splatting : {"bdpt", "mlt", "sppm", "lightpath"}) {
@@ -166,10 +178,14 @@ Result<void> LoadedScene::makeIntegrators(const pbrt::BasicScene& scene) {
     }
     const pbrt::Sampler prototype = samplers_.back().prototype->sampler;
     integrators_[kOwnIntegrator] = std::make_unique<EmcaPathIntegrator>(settings, camera_, prototype, root_, lights_, *view_);
-    const bool hasDelta = std::any_of(lights_.begin(), lights_.end(), [](const pbrt::Light& light) { return IsDeltaLight(light.Type()); });
-    if (hasDelta) whyNoSimpleVolpath_ = "pbrt's \"simplevolpath\" takes area lights and infinite lights only, and the scene has others.";
+    // What this one does not take would end the process, at the first ray that meets it.
+    if (std::any_of(lights_.begin(), lights_.end(), [](const pbrt::Light& light) { return IsDeltaLight(light.Type()); })) {
+        whyNoSimpleVolpath_ = "pbrt's \"simplevolpath\" takes area lights and infinite lights only, and the scene has others.";
+    } else if (surfaces_->anyScatters()) {
+        whyNoSimpleVolpath_ = "pbrt's \"simplevolpath\" takes no surfaces that scatter, and the scene has some.";
+    }
     for (const std::string name : kObserved) {
-        if (name == "simplevolpath" && hasDelta) continue;
+        if (name == "simplevolpath" && !whyNoSimpleVolpath_.empty()) continue;
         auto made = pbrt::Integrator::Create(name, dictionary, camera_, prototype, root_, lights_, scene.filmColorSpace, &scene.integrator.loc);
         if (auto* rays = dynamic_cast<pbrt::RayIntegrator*>(made.get())) {
             static_cast<void>(made.release());
@@ -224,6 +240,9 @@ Result<std::shared_ptr<const SamplerPrototype>> LoadedScene::sampler(const std::
     if (name == "pmj02bn" && samples > pbrt::nPMJ02bnSamples) {
         return Error{ErrorCode::invalidArgument, "pbrt's sampler \"pmj02bn\" has at most " + std::to_string(pbrt::nPMJ02bnSamples) +
                                                      " samples per pixel; asked for " + std::to_string(samples) + "."};
+    }
+    if (name == "pmj02bn" && !pmjTableHolds(samples)) {
+        return Error{ErrorCode::notSupported, "This pbrt's table of \"pmj02bn\" points is not what it has to be; take another sampler."};
     }
 
     const std::scoped_lock lock(samplerMutex_);

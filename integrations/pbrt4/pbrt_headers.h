@@ -34,5 +34,6 @@
 #include <pbrt/util/colorspace.h>
 #include <pbrt/util/mesh.h>
 #include <pbrt/util/parallel.h>
+#include <pbrt/util/pmj02tables.h>
 #include <pbrt/util/sampling.h>
 #include <pbrt/util/spectrum.h>

@@ -413,6 +413,9 @@ SceneSurfaces::~SceneSurfaces() = default;
 
 const std::vector<Mesh>& SceneSurfaces::meshes() const { return impl_->meshes_; }
 std::size_t SceneSurfaces::trianglesLeftOut() const { return impl_->leftOut_; }
+bool SceneSurfaces::anyScatters() const {
+    return std::any_of(impl_->groups_.begin(), impl_->groups_.end(), [](const Group& group) { return bool(group.material); });
+}
 SurfacePlace SceneSurfaces::at(const HitChain& chain, const pbrt::SurfaceInteraction& at) const { return impl_->at(chain, at); }
 
 SurfacePlace SceneSurfaces::onLight(pbrt::Light light, const pbrt::Interaction& point) const {

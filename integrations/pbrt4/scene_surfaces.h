@@ -52,6 +52,8 @@ class SceneSurfaces {
 
     const std::vector<Mesh>& meshes() const;
     std::size_t trianglesLeftOut() const;
+    /// Whether any surface has a material, which boundaries of media need not.
+    bool anyScatters() const;
 
     /// \param at  the interaction that came with this chain, render space
     SurfacePlace at(const HitChain& chain, const pbrt::SurfaceInteraction& at) const;

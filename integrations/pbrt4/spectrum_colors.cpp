@@ -4,11 +4,12 @@
 
 namespace emca::pbrt4 {
 
-SpectrumColors::SpectrumColors(pbrt::Film film) : film_(film) {
+SpectrumColors::SpectrumColors(pbrt::Film film) : sensor_(film.GetPixelSensor()) {
     const pbrt::RGBColorSpace& space = *inside::settings(film).colorSpace;
     const pbrt::RGBColorSpace& rec709 = *pbrt::RGBColorSpace::sRGB;  // the same primaries and white, linear
     isRec709_ = space == rec709;
     rec709FromFilm_ = pbrt::ConvertRGBColorSpace(space, rec709);
+    rec709FromSensor_ = rec709.RGBFromXYZ * sensor_->XYZFromSensorRGB;
     const pbrt::XYZ white = rec709.ToXYZ(pbrt::RGB(1, 1, 1));
     rec709FromWeighted_ = rec709.RGBFromXYZ * pbrt::SquareMatrix<3>::Diag(white.X, white.Y, white.Z);
 }
@@ -29,14 +30,11 @@ Color SpectrumColors::factor(const pbrt::SampledSpectrum& spectrum, const pbrt::
         }
         means[c] = weights > 0 ? sum / weights : wavelengths > 0 ? plain / float(wavelengths) : 0.f;
     }
-    const pbrt::RGB rgb = pbrt::Mul<pbrt::RGB>(rec709FromWeighted_, pbrt::XYZ(means[0], means[1], means[2]));
-    return {rgb.r, rgb.g, rgb.b};
+    return toColor(pbrt::Mul<pbrt::RGB>(rec709FromWeighted_, pbrt::XYZ(means[0], means[1], means[2])));
 }
 
 Color SpectrumColors::rec709(const pbrt::RGB& rgb) const {
-    if (isRec709_) return {rgb.r, rgb.g, rgb.b};
-    const pbrt::RGB converted = pbrt::Mul<pbrt::RGB>(rec709FromFilm_, rgb);
-    return {converted.r, converted.g, converted.b};
+    return toColor(isRec709_ ? rgb : pbrt::Mul<pbrt::RGB>(rec709FromFilm_, rgb));
 }
 
 }  // namespace emca::pbrt4

@@ -13,7 +13,7 @@ class SpectrumColors {
     /// Radiance as the film's sensor sees it: linear in the spectrum, so that parts add up to the whole and samples to
     /// the pixel. Four wavelengths tell little about colour: that of one sample is noise, that of many is right.
     Color radiance(const pbrt::SampledSpectrum& spectrum, const pbrt::SampledWavelengths& lambda) const {
-        return rec709(film_.ToOutputRGB(spectrum, lambda));
+        return toColor(pbrt::Mul<pbrt::RGB>(rec709FromSensor_, sensor_->ToSensorRGB(spectrum, lambda)));
     }
 
     /// A factor without unit, such as a throughput: the mean of its values, weighted by how much each wavelength has to
@@ -25,9 +25,11 @@ class SpectrumColors {
     Color rec709(const pbrt::RGB& rgb) const;
 
   private:
-    pbrt::Film film_;
+    static Color toColor(const pbrt::RGB& rgb) { return {float(rgb.r), float(rgb.g), float(rgb.b)}; }
+
+    const pbrt::PixelSensor* sensor_;
     bool isRec709_;
-    pbrt::SquareMatrix<3> rec709FromFilm_;
+    pbrt::SquareMatrix<3> rec709FromFilm_, rec709FromSensor_;
     pbrt::SquareMatrix<3> rec709FromWeighted_;  ///< of the weighted means at X, Y and Z
 };
 
