@@ -47,7 +47,7 @@ void Observation::describe(const mts::Intersection& its) {
     emca_.addIntersectionData("shape", [&] { return nameOf(*its.shape); });
     emca_.addIntersectionData("material", [&] { return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view("none"); });
     emca_.addIntersectionData("normal", its.shFrame.n);
-    if (context_.tally) context_.tally->vertex(place, toVec3f(its.p), toColor(throughput_));
+    if (context_.tally) context_.tally->intersection({place.mesh, place.face, toVec3f(its.p)});
     tallied_ = true;
 }
 
@@ -71,7 +71,7 @@ void Observation::finishLight() {
 
 void Observation::finishVertex() {
     finishLight();
-    if (!tallied_ && context_.tally) context_.tally->vertex({}, {}, toColor(throughput_));
+    if (!tallied_ && context_.tally) context_.tally->background();
     tallied_ = true;
 }
 
@@ -88,7 +88,6 @@ void Observation::tellNumbers(const char* ofPair) {
 void Observation::goOn(const mts::Point& from, const mts::Vector& direction, mts::Float time, const mts::Spectrum& weight) {
     throughput_ *= weight;
     segment_.emplace(from, direction, time);
-    if (context_.tally) context_.tally->scattered(toColor(weight));
 }
 
 void Observation::bsdfSampled(const mts::BSDFSamplingRecord& record, const mts::Spectrum& weight, const mts::Float* pdf, const mts::BSDF& bsdf) {
@@ -162,7 +161,10 @@ void Observation::lightSampled(const mts::DirectSamplingRecord& record, const mt
     emca_.addIntersectionData("light", [&] { return nameOf(emitter); });
     emca_.addIntersectionData("light pdf", record.pdf * scene_.pdfEmitterDiscrete(&emitter));
     emca_.addIntersectionData("light radiance over pdf", [&] { return mts::Spectrum(value / scene_.pdfEmitterDiscrete(&emitter)); });
-    if (context_.tally && emitter.getShape()) context_.tally->nextEvent(context_.shapes->place(emitter.getShape(), record.p), toVec3f(record.p));
+    if (context_.tally && context_.tally->wantsNextEvents() && emitter.getShape()) {
+        const SurfacePlace place = context_.shapes->place(emitter.getShape(), record.p);
+        context_.tally->nextEvent({place.mesh, place.face, toVec3f(record.p)});
+    }
 }
 
 void Observation::lightDensity(const mts::DirectSamplingRecord& record, mts::Float pdf, const mts::Emitter& emitter) {

@@ -38,6 +38,11 @@ void EmcaObserver::configure() {
     mts::SamplingIntegrator::configure();
 }
 
+std::vector<LayerDescription> EmcaObserver::layers() const {
+    if (traced_) return traced_->layers();
+    return pathLayers({PathLayer::intersections, PathLayer::nextEvents, PathLayer::invalidDirections, PathLayer::pathDepth});
+}
+
 std::string EmcaObserver::label() const { return traced_ ? traced_->label() : pluginName() + " (observed)"; }
 
 bool EmcaObserver::isDeterministic() const {

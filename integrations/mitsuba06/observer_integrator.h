@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "serving.h"
 #include "traced_integrator.h"
 
@@ -18,7 +20,7 @@ class EmcaObserver final : public mts::SamplingIntegrator, public TracedIntegrat
 
     mts::Spectrum Li(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query) const override { return observed_->Li(ray, query); }
     mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const override;
-    const std::vector<LayerDescription>& layers() const override { return observedLayers(); }
+    std::vector<LayerDescription> layers() const override;
     std::string label() const override;
     bool isDeterministic() const override;
     mts::SamplingIntegrator& computing() const override { return *const_cast<mts::SamplingIntegrator*>(observed_.get()); }

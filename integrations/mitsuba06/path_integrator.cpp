@@ -73,7 +73,10 @@ mts::Spectrum EmcaPathIntegrator::trace(const mts::RayDifferential& ray, mts::Ra
         emca.addIntersectionData("shape", [&] { return nameOf(*its.shape); });
         emca.addIntersectionData("throughput", [&] { return walk.seen(walk.throughput); });
         emca.addIntersectionData("normal", its.shFrame.n);
-        if (context.tally) context.tally->vertex(place, toVec3f(its.p), toColor(walk.seen(walk.throughput)));
+        if (context.tally) {
+            context.tally->intersection({place.mesh, place.face, toVec3f(its.p)});
+            context.tally->throughput(toColor(walk.seen(walk.throughput)));
+        }
 
         emission(walk);
         subsurface(walk);
@@ -139,7 +142,7 @@ void EmcaPathIntegrator::environment(Walk& walk) const {
     });
     walk.emca.setIntersectionEvent(Event::background);
     walk.emca.addIntersectionData("throughput", [&] { return walk.seen(walk.throughput); });
-    if (walk.context.tally) walk.context.tally->vertex({}, {}, Color(0.f));
+    if (walk.context.tally) walk.context.tally->background();
     const mts::Emitter* const light = walk.scene.getEnvironmentEmitter();
     if (!light || (walk.direct && m_hideEmitters)) return;
     const mts::Spectrum emitted = walk.scene.evalEnvironment(walk.ray);
@@ -178,7 +181,10 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const mts::BSDF& bsdf) const {
     const mts::Spectrum radiance = walk.scene.sampleEmitterDirect(light, u, false);  // over the density
     if (light.pdf == 0 || radiance.isZero()) return;
     const auto& emitter = static_cast<const mts::Emitter&>(*light.object);
-    if (walk.context.tally) walk.context.tally->nextEvent(walk.context.shapes->place(emitter.getShape(), light.p), toVec3f(light.p));
+    if (walk.context.tally && walk.context.tally->wantsNextEvents() && emitter.getShape()) {
+        const SurfacePlace place = walk.context.shapes->place(emitter.getShape(), light.p);
+        walk.context.tally->nextEvent({place.mesh, place.face, toVec3f(light.p)});
+    }
 
     const mts::BSDFSamplingRecord scattering(its, its.toLocal(light.d));
     const mts::Spectrum value = bsdf.eval(scattering);

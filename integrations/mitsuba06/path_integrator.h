@@ -18,7 +18,7 @@ class EmcaPathIntegrator final : public mts::MonteCarloIntegrator, public Traced
     mts::Spectrum Li(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query) const override { return trace(ray, query, {}); }
     mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const override;
 
-    const std::vector<LayerDescription>& layers() const override { return pathLayers(); }
+    std::vector<LayerDescription> layers() const override { return pathLayers(); }
     std::string label() const override { return "emcapath"; }
     bool isDeterministic() const override { return true; }
     mts::SamplingIntegrator& computing() const override { return const_cast<EmcaPathIntegrator&>(*this); }

@@ -8,8 +8,8 @@
 #include <mitsuba/render/imageblock.h>
 
 #include "emca/adapter/pixel_loop.h"
+#include "emca/recorder/path_layers.h"
 #include "mitsuba_headers.h"
-#include "surface_tally.h"
 #include "traced_integrator.h"
 
 namespace emca::mitsuba06 {
@@ -44,7 +44,8 @@ class PixelSampler final : public adapter::PixelWorker {
 
     SamplingTask task_;
     mts::ref<mts::Sampler> sampler_;
-    std::optional<SurfaceTally> tally_;
+    std::optional<PathLayers> layers_;  ///< while some are collected
+    std::optional<PathTally> tally_;
     const mts::Sensor& sensor_;
     mts::ref<mts::ImageBlock> block_;  ///< one pixel and the film's border
     mts::Point2i cropOffset_, at_;

@@ -62,7 +62,7 @@ class ObservedBsdf final : public mts::BSDF {
 
 class ObservedEmitter final : public mts::Emitter {
   public:
-    explicit ObservedEmitter(mts::Emitter& inner) : mts::Emitter(named(nameOf(inner))), inner_(&inner), emitter_(inner) {
+    explicit ObservedEmitter(mts::Emitter& inner) : mts::Emitter(named(nameOf(static_cast<const mts::ConfigurableObject&>(inner)))), inner_(&inner), emitter_(inner) {
         m_type = inner.getType();
         m_shape = inner.getShape();
         m_medium = inner.getMedium();

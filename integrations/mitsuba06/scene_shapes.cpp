@@ -85,6 +85,10 @@ std::string_view nameOf(const mts::ConfigurableObject& object) {
     return id.empty() || id == "unnamed" ? std::string_view(object.getClass()->getName()) : std::string_view(id);
 }
 
+std::string nameOf(const mts::Emitter& emitter) {
+    return emitter.getShape() ? nameOf(*emitter.getShape()) : std::string(nameOf(static_cast<const mts::ConfigurableObject&>(emitter)));
+}
+
 std::string nameOf(const mts::Shape& shape) {
     const std::string& id = shape.getID();
     if (!id.empty() && id != "unnamed") return id;

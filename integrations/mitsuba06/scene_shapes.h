@@ -53,6 +53,8 @@ std::vector<mts::Shape*> shapesOfInstance(mts::Shape& shape);
 
 /// The ID that the scene file gives an object, else what kind of object it is. Valid as long as the object.
 std::string_view nameOf(const mts::ConfigurableObject& object);
+/// Name of a light: the shape's, if it is one's.
+std::string nameOf(const mts::Emitter& emitter);
 /// Name of a shape: its own (often the file's), else as above.
 std::string nameOf(const mts::Shape& shape);
 

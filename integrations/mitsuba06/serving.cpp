@@ -50,8 +50,9 @@ void Serving::run(mts::Scene& scene, const TracedIntegrator& traced) {
     options.allowQuit = true;
     options.log = [&renderer](const std::string& remark) { renderer.say(mts::EInfo, remark); };
     auto server = Server::start(renderer, options);
-    if (!server) throw std::runtime_error("EMCA: " + server.error().message);
-    if (auto added = (*server)->addTool(makeLightProbeTool(renderer)); !added) throw std::runtime_error("EMCA: " + added.error().message);
+    // Told on the terminal even where Mitsuba is to be quiet: its image is done, but somebody waits for the server.
+    if (!server) return void(std::cerr << "EMCA: " << server.error().message << std::endl);
+    if (auto added = (*server)->addTool(makeLightProbeTool(renderer)); !added) return void(std::cerr << "EMCA: " << added.error().message << std::endl);
     {
         const std::lock_guard lock(mutex_);
         running_ = server->get();

@@ -22,7 +22,7 @@ class Serving {
 
     bool isAsked() const { return address_.has_value(); }
     /// Writes the film's image, then blocks until a client's quit request or stop(). Returns at once if not asked to
-    /// serve. Throws, as Mitsuba does, if nobody can be served.
+    /// serve, and with a line on the error stream if nobody can be served.
     /// \param traced  the integrator
     void run(mts::Scene& scene, const TracedIntegrator& traced);
     void stop();

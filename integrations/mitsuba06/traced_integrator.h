@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "emca/core/surface_field.h"
+#include "emca/recorder/path_layers.h"
 #include "mitsuba_headers.h"
 #include "scene_shapes.h"
-#include "surface_tally.h"
 
 namespace emca::mitsuba06 {
 
@@ -14,7 +14,7 @@ namespace emca::mitsuba06 {
 struct PathContext {
     const SceneShapes* shapes = nullptr;          ///< null where nobody wants to know surfaces
     mts::Spectrum cameraWeight{mts::Float(1)};    ///< what the sensor multiplies the radiance with: for what is recorded
-    SurfaceTally* tally = nullptr;                ///< null unless surface layers are collected
+    PathTally* tally = nullptr;                ///< null unless surface layers are collected
 };
 
 /// An integrator whose paths EMCA can follow. trace() gives the bits of Li(), whoever listens.
@@ -26,7 +26,8 @@ class TracedIntegrator {
     /// vertices are recorded. For several threads at once.
     virtual mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const = 0;
 
-    virtual const std::vector<LayerDescription>& layers() const = 0;
+    /// The surface layers that trace() can add to.
+    virtual std::vector<LayerDescription> layers() const = 0;
     /// Name for people, for example "path, observed".
     virtual std::string label() const = 0;
     /// Same settings and samples give the same bits, from any thread.
