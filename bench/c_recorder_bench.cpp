@@ -1,5 +1,5 @@
-// Recording through C beside recording through C++: the same calls as recorder_bench, 12 per intersection, with the same
-// values, in one program. Times are per intersection.
+// Recording through C beside recording through C++: the same calls as recorder_bench, 12 per intersection, with the
+// same values, in one program. Times are per intersection.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -25,7 +25,8 @@ const Intersections& intersections() {
         const auto vector = [&] { return emca_vec3f{number(random), number(random), number(random)}; };
         const auto color = [&] { return emca_color{number(random), number(random), number(random)}; };
         for (bench_intersection& i : made)
-            i = {vector(), vector(), vector(), color(), color(), color(), color(), {number(random), number(random)},
+            i = {vector(),       vector(),       vector(),          color(),
+                 color(),        color(),        color(),           {number(random), number(random)},
                  number(random), number(random), random() % 2 == 0, kMaterials[random() % kMaterials.size()]};
         return made;
     }();
@@ -61,8 +62,9 @@ const Intersections& intersections() {
 }
 
 void countIntersections(benchmark::State& state) {
-    state.counters["ns/intersection"] = benchmark::Counter(double(state.iterations()) * int(BENCH_PATHS) * int(BENCH_DEPTH) * 1e-9,
-                                                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["ns/intersection"] =
+        benchmark::Counter(double(state.iterations()) * int(BENCH_PATHS) * int(BENCH_DEPTH) * 1e-9,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 template <void (*Record)(const bench_intersection*)>
@@ -96,7 +98,8 @@ void onInC(benchmark::State& state) {
         emca_recording* recording = nullptr;
         emca_scope* scope = nullptr;
         const emca_pixel pixel = {0, 0};
-        if (emca_recording_create(0, &recording, nullptr) != EMCA_OK || emca_scope_open(recording, &pixel, &scope, nullptr) != EMCA_OK)
+        if (emca_recording_create(0, &recording, nullptr) != EMCA_OK ||
+            emca_scope_open(recording, &pixel, &scope, nullptr) != EMCA_OK)
             return state.SkipWithError("no recording");
         state.ResumeTiming();
         bench_record_in_c(intersections().data());

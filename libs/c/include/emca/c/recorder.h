@@ -152,7 +152,8 @@ typedef struct emca_scope emca_scope;
 /// \param pixel  that paths belong to until emca_set_pixel says otherwise; null: none (light paths)
 /// \param scope  to be closed by the same thread, before render_pixel returns
 /// Errors: EMCA_INVALID_ARGUMENT (null, a recording that is finished), EMCA_OUT_OF_MEMORY.
-EMCA_API emca_code emca_scope_open(emca_recording* recording, const emca_pixel* pixel, emca_scope** scope, emca_error* error);
+EMCA_API emca_code emca_scope_open(emca_recording* recording, const emca_pixel* pixel, emca_scope** scope,
+                                   emca_error* error);
 /// Null is nothing. Errors: EMCA_INVALID_ARGUMENT (another thread than the one that opened it, or a scope inside is still
 /// open: the scope stays open).
 EMCA_API emca_code emca_scope_close(emca_scope* scope, emca_error* error);

@@ -22,8 +22,8 @@ typedef struct emca_info {
     uint64_t seed;
     uint32_t width, height;          ///< of the image, in pixels; at least 1
     uint32_t samples_per_pixel;      ///< the scene's own choice; 1 by default
-    uint32_t threads;                ///< that render_pixel may be called from at once, if `concurrent`; 0: as many as the machine has
-    int32_t concurrent;              ///< render_pixel may run while render_image does, and several render_pixel at once; false by default
+    uint32_t threads;                ///< at once in render_pixel, if `concurrent`; 0: as many as the machine has
+    int32_t concurrent;              ///< functions may run beside each other, render_pixel with itself; false by default
     int32_t deterministic;           ///< the same settings give the same bits; true by default
     int32_t paths_reach_any_pixel;   ///< light tracing, Metropolis: render_pixels does its work once for all pixels
     uint32_t capability_count;
@@ -64,7 +64,7 @@ typedef struct emca_image {
     uint32_t width, height;  ///< as emca_info said
     emca_color* color;       ///< width * height: mean radiance of each pixel
     float* samples;          ///< width * height: how many samples each pixel got; set `has_samples` to say them
-    emca_color* variance;    ///< width * height: unbiased variance of the samples of a pixel, 0 if fewer than 2; set `has_variance`
+    emca_color* variance;    ///< width * height: unbiased, of the samples of a pixel, 0 if fewer than 2; set `has_variance`
     int32_t has_samples;     ///< false by default: all pixels got the samples that were asked for
     int32_t has_variance;    ///< false by default: not said
 } emca_image;

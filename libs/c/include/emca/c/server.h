@@ -100,7 +100,7 @@ typedef struct emca_probe_request {
     uint32_t size, version;
     uint64_t seed;               ///< the same one gives the same bits from a deterministic renderer
     uint32_t samples_per_pixel;  ///< at least 1
-    int32_t maximum_depth;       ///< longest path in segments, from the probe on: 1 shows what emits; -1: no limit; 0: as usual
+    int32_t maximum_depth;       ///< longest path in segments: 1 shows what emits; -1: no limit; 0: as usual
     const char* integrator;      ///< never null; empty: the renderer's
 } emca_probe_request;
 
@@ -110,7 +110,7 @@ typedef struct emca_light_probe {
     uint32_t size, version;  ///< EMCA_SIZED
     void* user;              ///< anything; never looked at
     float surface_offset;    ///< scene units: how far off its surface a ray starts; 1e-4 of the scene's radius is common
-    uint32_t threads;        ///< that render a probe; 0: one per processor; 1 for a renderer that cannot do two things at once
+    uint32_t threads;        ///< that render a probe; 0: one per processor; 1 if `radiance` must not run twice at once
     /// Radiance that arrives along a ray, linear Rec. 709, W/(sr m^2). Depends on its arguments alone. Emitters are to be
     /// seen even where an integrator hides them from the camera.
     /// \param worker     what `begin` made; `user` if there is none
