@@ -190,6 +190,17 @@ TEST(ExampleInC, SeesItsLampInALightProbe) {
     EXPECT_TRUE(sameBits(image, repeated)) << "whatever its threads do";
 }
 
+#ifdef EMCA_CLI
+TEST(ExampleInC, PleasesTheDoctor) {
+    const ServingProcess process({EMCA_EXAMPLE, "0"});
+    const Outcome outcome = run({EMCA_CLI, "doctor", process.address(), "--spp", "2", "--pixels", "10", "--only",
+                                 "handshake,info,meshes,camera,image,replay,sums,paths,values,surfaces,camera-rays,"
+                                 "pixel-list,samples,layers,light-probe"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("0 warnings, 0 failed"), std::string::npos) << outcome.out;
+}
+#endif
+
 TEST(ExampleInC, SaysWhyItDoesNotServe) {
     const ServingProcess first({EMCA_EXAMPLE, "0"});
     const Outcome second = run({EMCA_EXAMPLE, std::to_string(first.port())});
