@@ -48,7 +48,7 @@ EMCA_API uint16_t emca_server_port(const emca_server* server);
 EMCA_API const char* emca_server_address(const emca_server* server);
 /// Returns when a client's quit request, or emca_server_stop, ended the server. Any thread but the renderer's functions.
 EMCA_API void emca_server_wait(emca_server* server);
-/// Ends the server: running work is cancelled. Any thread.
+/// Ends the server: running work is cancelled. Any thread; not from a signal handler.
 EMCA_API void emca_server_stop(emca_server* server);
 /// Stops, waits for running work and frees. Not from a function of the renderer, and not while another thread is in one
 /// of the functions above. Null is nothing.
