@@ -17,7 +17,8 @@ mts::Float nextNumber(std::uint64_t& state) {
 
 }  // namespace
 
-EmcaSampler::EmcaSampler(const mts::Properties& properties) : mts::Sampler(properties), seeds_(static_cast<std::uint64_t>(properties.getLong("seed", 0))) {
+EmcaSampler::EmcaSampler(const mts::Properties& properties)
+    : mts::Sampler(properties), seeds_(static_cast<std::uint64_t>(properties.getLong("seed", 0))) {
     m_sampleCount = properties.getSize("sampleCount", 4);
     m_dimension1DArray = m_dimension2DArray = 0;
     setSampleIndex(0);
@@ -43,7 +44,8 @@ void EmcaSampler::fillArrays() {
     for (std::size_t sample = 0; sample < m_sampleCount && !(m_req1D.empty() && m_req2D.empty()); ++sample) {
         std::uint64_t state = ~seeds_.seed(pixel_, sample);  // not the sequence that next1D() gives
         for (std::size_t i = 0; i < m_req1D.size(); ++i) {
-            for (std::size_t k = 0; k < m_req1D[i]; ++k) m_sampleArrays1D[i][sample * m_req1D[i] + k] = nextNumber(state);
+            for (std::size_t k = 0; k < m_req1D[i]; ++k)
+                m_sampleArrays1D[i][sample * m_req1D[i] + k] = nextNumber(state);
         }
         for (std::size_t i = 0; i < m_req2D.size(); ++i) {
             for (std::size_t k = 0; k < m_req2D[i]; ++k) {

@@ -9,9 +9,9 @@
 
 namespace emca::mitsuba06 {
 
-/// "emcasampler": independent random numbers whose sequence depends on the pixel, the sample's index and the seed alone,
-/// so that any sample of any pixel can be drawn again, by any thread. More samples per pixel extend the sequence of
-/// samples and change none.
+/// "emcasampler": independent random numbers whose sequence depends on the pixel, the sample's index and the seed
+/// alone, so that any sample of any pixel can be drawn again, by any thread. More samples per pixel extend the sequence
+/// of samples and change none.
 ///
 /// Properties: sampleCount (integer, 4), seed (integer, 0).
 class EmcaSampler final : public mts::Sampler {

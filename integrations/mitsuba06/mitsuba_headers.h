@@ -1,12 +1,13 @@
 #pragma once
 
-// EMCA's headers stand before Mitsuba's, which define macros of short names (Log, Assert, Epsilon).
+// EMCA's headers stand before Mitsuba's, which define macros of short names (Log, Assert, Epsilon). Of Mitsuba's,
+// scene.h comes first: the others count on what it includes.
 #include "emca/core/color.h"
 #include "emca/core/vector.h"
 #include "emca/recorder/recordable.h"
 
 #include <mitsuba/render/scene.h>
-// Scene comes first: the others count on what it includes.
+
 #include <mitsuba/core/plugin.h>
 
 namespace emca::mitsuba06 {

@@ -28,7 +28,9 @@ bool isAddressable(const std::string& sampler) {
 }
 
 /// What a sampler calls its seed; empty if it has none.
-std::string seedName(const std::string& sampler) { return sampler == kOurSampler ? "seed" : sampler == "sobol" ? "scramble" : ""; }
+std::string seedName(const std::string& sampler) {
+    return sampler == kOurSampler ? "seed" : sampler == "sobol" ? "scramble" : "";
+}
 
 template <typename T>
 mts::ref<T> create(const mts::Class* kind, const mts::Properties& properties) {
@@ -40,16 +42,22 @@ mts::ref<T> create(const mts::Class* kind, const mts::Properties& properties) {
 }  // namespace
 
 MitsubaRenderer::MitsubaRenderer(mts::Scene& scene, const TracedIntegrator& integrator)
-    : scene_(scene), integrator_(integrator), shapes_(scene), sceneSampler_(scene.getSensor()->getSampler()->getProperties().getPluginName()) {
+    : scene_(scene),
+      integrator_(integrator),
+      shapes_(scene),
+      sceneSampler_(scene.getSensor()->getSampler()->getProperties().getPluginName()) {
     filter_ = scene.getFilm()->getReconstructionFilter();
     filtersAlike_ = filter_->getRadius() <= kWidestBox;
     if (!filtersAlike_) {
         filter_ = create<mts::ReconstructionFilter>(MTS_CLASS(mts::ReconstructionFilter), mts::Properties("box"));
-        say(mts::EInfo, "EMCA: the film's reconstruction filter is wider than a pixel; in the explorer a pixel is the mean of its own samples.");
+        say(mts::EInfo,
+            "EMCA: the film's reconstruction filter is wider than a pixel; in the explorer a pixel is the mean of its "
+            "own samples.");
     }
     sampler_ = isAddressable(sceneSampler_) ? sceneSampler_ : kOurSampler;
     if (sampler_ != sceneSampler_) {
-        say(mts::EInfo, "EMCA: the sampler \"" + sceneSampler_ + "\" gives other numbers each time; in the explorer \"" + sampler_ + "\" takes its place.");
+        say(mts::EInfo, "EMCA: the sampler \"" + sceneSampler_ +
+                            "\" gives other numbers each time; in the explorer \"" + sampler_ + "\" takes its place.");
     }
 }
 
@@ -64,13 +72,18 @@ RendererInfo MitsubaRenderer::info() const {
     info.renderer = "Mitsuba " MTS_VERSION;
     info.scene = std::filesystem::path(scene_.getSourceFile().native()).stem().string();
     if (info.scene.starts_with("scene")) {  // as in collections where each scene has a folder
-        info.scene = std::filesystem::path(scene_.getSourceFile().native()).parent_path().filename().string() + "/" + info.scene;
+        info.scene =
+            std::filesystem::path(scene_.getSourceFile().native()).parent_path().filename().string() + "/" + info.scene;
     }
     info.width = static_cast<std::uint32_t>(film.getCropSize().x);
     info.height = static_cast<std::uint32_t>(film.getCropSize().y);
     info.samplesPerPixel = static_cast<std::uint32_t>(scene_.getSensor()->getSampler()->getSampleCount());
     info.integrator = integrator_.label();
     info.sampler = sampler_;
+    const mts::Properties& ofSampler = scene_.getSensor()->getSampler()->getProperties();
+    if (sampler_ == sceneSampler_ && ofSampler.hasProperty(seedName(sampler_))) {
+        info.seed = static_cast<std::uint64_t>(ofSampler.getLong(seedName(sampler_)));
+    }
     info.concurrent = true;
     info.threads = static_cast<unsigned>(std::max<std::size_t>(1, mts::Scheduler::getInstance()->getCoreCount()));
     info.deterministic = integrator_.isDeterministic();
@@ -88,10 +101,11 @@ mts::ref<mts::Sampler> MitsubaRenderer::createSampler(const std::string& name, c
     mts::Sampler& ofScene = *scene_.getSensor()->getSampler();
     mts::Properties properties(name);
     if (name == sceneSampler_) properties = ofScene.getProperties();
-    const auto count = static_cast<int>(settings.samplesPerPixel > 0 ? settings.samplesPerPixel : ofScene.getSampleCount());
+    const auto count =
+        static_cast<int>(settings.samplesPerPixel > 0 ? settings.samplesPerPixel : ofScene.getSampleCount());
     properties.removeProperty("sampleCount");
     properties.setInteger("sampleCount", count);
-    if (settings.hasSeed) {
+    if (settings.hasSeed && !seedName(name).empty()) {
         properties.removeProperty(seedName(name));
         properties.setLong(seedName(name), static_cast<std::int64_t>(settings.seed));
     }
@@ -103,10 +117,13 @@ mts::ref<mts::Sampler> MitsubaRenderer::createSampler(const std::string& name, c
 Result<mts::ref<mts::Sampler>> MitsubaRenderer::samplerFor(const RenderSettings& settings) const {
     const std::string name = settings.sampler.empty() ? sampler_ : settings.sampler;
     if (!isAddressable(name)) {
-        return Error{ErrorCode::invalidArgument, "Asked for the sampler \"" + name + "\": a pixel can be replayed with emcasampler, sobol, halton and hammersley."};
+        return Error{ErrorCode::invalidArgument,
+                     "Asked for the sampler \"" + name +
+                         "\": a pixel can be replayed with emcasampler, sobol, halton and hammersley."};
     }
-    if (settings.hasSeed && seedName(name).empty()) {
-        return Error{ErrorCode::invalidArgument, "Asked for a seed with the sampler \"" + name + "\", which has none: emcasampler and sobol have one."};
+    if (settings.hasSeed && settings.seed != 0 && seedName(name).empty()) {
+        return Error{ErrorCode::invalidArgument, "Asked for a seed with the sampler \"" + name +
+                                                     "\", which has none: emcasampler and sobol have one."};
     }
     const std::lock_guard lock(mutex_);
     try {
@@ -135,14 +152,16 @@ Result<mts::ref<mts::SamplingIntegrator>> MitsubaRenderer::integratorFor(int max
     try {
         return create<mts::SamplingIntegrator>(MTS_CLASS(mts::SamplingIntegrator), properties);
     } catch (const std::exception& error) {
-        return Error{ErrorCode::notSupported, "Mitsuba could not make a copy of the integrator \"" + properties.getPluginName() + "\": " + error.what()};
+        return Error{ErrorCode::notSupported, "Mitsuba could not make a copy of the integrator \"" +
+                                                  properties.getPluginName() + "\": " + error.what()};
     }
 }
 
 Result<adapter::PixelLoop> MitsubaRenderer::loopFor(const RenderSettings& settings) const {
     threads_.registerThisThread();
     if (!settings.integrator.empty() && settings.integrator != integrator_.label()) {
-        return Error{ErrorCode::invalidArgument, "Asked for the integrator \"" + settings.integrator + "\": this server renders with " + integrator_.label() +
+        return Error{ErrorCode::invalidArgument, "Asked for the integrator \"" + settings.integrator +
+                                                     "\": this server renders with " + integrator_.label() +
                                                      "; start Mitsuba with the other one."};
     }
     auto sampler = samplerFor(settings);
@@ -155,15 +174,17 @@ Result<adapter::PixelLoop> MitsubaRenderer::loopFor(const RenderSettings& settin
     loop.threads = about.threads;
     SamplingTask task{&scene_, &integrator_, &shapes_, filter_.get(), nullptr};
     const auto film = std::make_shared<std::vector<FilmPixel>>();
-    loop.makeWorker = [this, task, film, prototype = sampler->get(), owner = *sampler, pixels = std::size_t(about.width) * about.height,
-                       once = std::make_shared<std::once_flag>()](SurfaceRecorder* surface) -> Result<std::unique_ptr<adapter::PixelWorker>> {
+    loop.makeWorker = [this, task, film, prototype = sampler->get(), owner = *sampler,
+                       pixels = std::size_t(about.width) * about.height, once = std::make_shared<std::once_flag>()](
+                          SurfaceRecorder* surface) -> Result<std::unique_ptr<adapter::PixelWorker>> {
         threads_.registerThisThread();
         SamplingTask mine = task;
         if (surface) {  // the samples of a pixel come in several passes
             std::call_once(*once, [&] { film->assign(pixels, FilmPixel{}); });
             mine.film = film;
         }
-        return std::unique_ptr<adapter::PixelWorker>(std::make_unique<PixelSampler>(std::move(mine), clone(*prototype), surface));
+        return std::unique_ptr<adapter::PixelWorker>(
+            std::make_unique<PixelSampler>(std::move(mine), clone(*prototype), surface));
     };
     return loop;
 }
@@ -174,13 +195,15 @@ Result<RenderedImage> MitsubaRenderer::renderImage(const RenderSettings& setting
     return adapter::renderImage(*loop, monitor);
 }
 
-Result<RenderedImage> MitsubaRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) {
+Result<RenderedImage> MitsubaRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                             RequestMonitor& monitor) {
     const auto loop = loopFor(settings);
     if (!loop) return loop.error();
     return adapter::renderImage(*loop, monitor, &surface);
 }
 
-Result<Color> MitsubaRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&, RequestMonitor& monitor) {
+Result<Color> MitsubaRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&,
+                                           RequestMonitor& monitor) {
     const auto loop = loopFor(settings);
     if (!loop) return loop.error();
     // The server opened the RecordScope of this thread, and the whole pixel is rendered in it.

@@ -13,8 +13,8 @@
 
 namespace emca::mitsuba06 {
 
-/// A scene that Mitsuba has loaded, as EMCA's renderer. A pixel is the mean of its own samples, as Mitsuba's film computes
-/// it with a box filter. May be called from several threads at once.
+/// A scene that Mitsuba has loaded, as EMCA's renderer. A pixel is the mean of its own samples, as Mitsuba's film
+/// computes it with a box filter. May be called from several threads at once.
 class MitsubaRenderer final : public Renderer {
   public:
     /// Called in one of Mitsuba's threads. Scene and integrator must outlive it.
@@ -25,8 +25,10 @@ class MitsubaRenderer final : public Renderer {
     std::vector<Mesh> meshes() const override { return shapes_.meshes(); }
     std::vector<LayerDescription> surfaceLayers() const override { return integrator_.layers(); }
     Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
-    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) override;
-    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) override;
+    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                RequestMonitor& monitor) override;
+    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
+                              RequestMonitor& monitor) override;
 
     const mts::Scene& scene() const { return scene_; }
     const TracedIntegrator& integrator() const { return integrator_; }
@@ -54,10 +56,10 @@ class MitsubaRenderer final : public Renderer {
     ThreadRegistration threads_;
     SceneShapes shapes_;
     mutable mts::ref<mts::ReconstructionFilter> filter_;  ///< box
-    bool filtersAlike_;          ///< the film's filter is a box as well
-    std::string sampler_;        ///< plugin's name of the scene's sampler, or emcasampler
-    std::string sceneSampler_;   ///< plugin's name of the scene's sampler
-    mutable std::mutex mutex_;   ///< making objects of Mitsuba's
+    bool filtersAlike_;                                   ///< the film's filter is a box as well
+    std::string sampler_;                                 ///< plugin's name of the scene's sampler, or emcasampler
+    std::string sceneSampler_;                            ///< plugin's name of the scene's sampler
+    mutable std::mutex mutex_;                            ///< making objects of Mitsuba's
 };
 
 }  // namespace emca::mitsuba06

@@ -34,16 +34,19 @@ float NearestFace::Corners::squaredDistance(Vec3f point) const {
     const Vec3f normal = cross(ab, c - a);
     const float area = dot(normal, normal);
     // Above the triangle if on the inner side of all three edges.
-    if (area > 0 && dot(cross(normal, ab), point - a) >= 0 && dot(cross(normal, bc), point - b) >= 0 && dot(cross(normal, ca), point - c) >= 0) {
+    if (area > 0 && dot(cross(normal, ab), point - a) >= 0 && dot(cross(normal, bc), point - b) >= 0 &&
+        dot(cross(normal, ca), point - c) >= 0) {
         const float height = dot(normal, point - a);
         return height * height / area;
     }
-    return std::min({squaredDistanceToEdge(point, a, ab), squaredDistanceToEdge(point, b, bc), squaredDistanceToEdge(point, c, ca)});
+    return std::min({squaredDistanceToEdge(point, a, ab), squaredDistanceToEdge(point, b, bc),
+                     squaredDistanceToEdge(point, c, ca)});
 }
 
 NearestFace::NearestFace(const Mesh& mesh) : order_(mesh.triangles.size()) {
     corners_.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) corners_.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
+    for (const Triangle& t : mesh.triangles)
+        corners_.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
     std::iota(order_.begin(), order_.end(), 0u);
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
 }
@@ -66,9 +69,12 @@ void NearestFace::build(std::uint32_t first, std::uint32_t last) {
     const Vec3f extent = nodes_[at].box.max - nodes_[at].box.min;
     const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const std::uint32_t middle = (first + last) / 2;
-    const auto centre = [&](std::uint32_t face) { return corners_[face].a[axis] + corners_[face].b[axis] + corners_[face].c[axis]; };
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](std::uint32_t a, std::uint32_t b) { return centre(a) != centre(b) ? centre(a) < centre(b) : a < b; });
+    const auto centre = [&](std::uint32_t face) {
+        return corners_[face].a[axis] + corners_[face].b[axis] + corners_[face].c[axis];
+    };
+    std::nth_element(
+        order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+        [&](std::uint32_t a, std::uint32_t b) { return centre(a) != centre(b) ? centre(a) < centre(b) : a < b; });
     build(first, middle);
     nodes_[at].first = static_cast<std::uint32_t>(nodes_.size());
     nodes_[at].count = 0;

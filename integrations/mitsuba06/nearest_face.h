@@ -9,8 +9,9 @@
 
 namespace emca::mitsuba06 {
 
-/// Finds the triangle of a mesh that is nearest to a point: for points of analytic shapes, whose tessellation lies beside
-/// them, and for points on meshes of which a renderer does not say the triangle. A hierarchy of boxes; immutable.
+/// Finds the triangle of a mesh that is nearest to a point: for points of analytic shapes, whose tessellation lies
+/// beside them, and for points on meshes of which a renderer does not say the triangle. A hierarchy of boxes;
+/// immutable.
 class NearestFace {
   public:
     NearestFace() = default;
@@ -38,8 +39,8 @@ class NearestFace {
     static Box boundsOf(const std::vector<Corners>& corners, std::span<const std::uint32_t> faces);
     void build(std::uint32_t first, std::uint32_t last);
 
-    std::vector<Corners> corners_;       ///< per triangle
-    std::vector<std::uint32_t> order_;   ///< triangles, as the leaves refer to them
+    std::vector<Corners> corners_;      ///< per triangle
+    std::vector<std::uint32_t> order_;  ///< triangles, as the leaves refer to them
     std::vector<Node> nodes_;
 };
 

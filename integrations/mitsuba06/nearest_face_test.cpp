@@ -45,7 +45,8 @@ TEST(NearestFace, isAsNearAsTheNearestByBruteForce) {
         ASSERT_GE(found, 0);
         const double distance = sampledDistance(mesh, static_cast<std::size_t>(found), point);
         for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
-            EXPECT_LE(distance, sampledDistance(mesh, face, point) + 0.02) << "point " << i << ", face " << face << ", found " << found;
+            EXPECT_LE(distance, sampledDistance(mesh, face, point) + 0.02)
+                << "point " << i << ", face " << face << ", found " << found;
         }
     }
 }

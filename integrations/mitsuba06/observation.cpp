@@ -8,14 +8,19 @@ namespace {
 
 thread_local Observation* currentObservation = nullptr;
 
-constexpr mts::Float kSameDirection = mts::Float(0.99999);  ///< cosine between a direction and what became of it in another frame
+constexpr mts::Float kSameDirection =
+    mts::Float(0.99999);  ///< cosine between a direction and what became of it in another frame
 
 }  // namespace
 
 Observation* Observation::current() { return currentObservation; }
 
 Observation::Observation(const mts::Scene& scene, const PathContext& context, const mts::RayDifferential& ray)
-    : scene_(scene), context_(context), previous_(currentObservation), throughput_(context.cameraWeight), segment_(ray) {
+    : scene_(scene),
+      context_(context),
+      previous_(currentObservation),
+      throughput_(context.cameraWeight),
+      segment_(ray) {
     currentObservation = this;
 }
 
@@ -45,7 +50,8 @@ void Observation::describe(const mts::Intersection& its) {
     const SurfacePlace place = context_.shapes ? context_.shapes->place(its) : SurfacePlace{};
     if (place) emca_.setIntersectionSurface(place.mesh, place.face);
     emca_.addIntersectionData("shape", [&] { return nameOf(*its.shape); });
-    emca_.addIntersectionData("material", [&] { return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view("none"); });
+    emca_.addIntersectionData(
+        "material", [&] { return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view("none"); });
     emca_.addIntersectionData("normal", its.shFrame.n);
     if (context_.tally) context_.tally->intersection({place.mesh, place.face, toVec3f(its.p)});
     tallied_ = true;
@@ -58,7 +64,7 @@ void Observation::tellHit(const Hit& hit) {
 }
 
 void Observation::finishHit(const mts::Point* next) {
-    if (!hit_ || (next && hit_->its.p == *next)) return;
+    if (!hit_ || (next && hit_->its.isValid() && hit_->its.p == *next)) return;
     // Light from behind a boundary that does not deflect it, which volpath collects ahead of the vertices in between.
     emca_.addIntersectionData("emission beyond a boundary", hit_->radiance);
     hit_.reset();
@@ -85,12 +91,14 @@ void Observation::tellNumbers(const char* ofPair) {
     numbers_.clear();
 }
 
-void Observation::goOn(const mts::Point& from, const mts::Vector& direction, mts::Float time, const mts::Spectrum& weight) {
+void Observation::goOn(const mts::Point& from, const mts::Vector& direction, mts::Float time,
+                       const mts::Spectrum& weight) {
     throughput_ *= weight;
     segment_.emplace(from, direction, time);
 }
 
-void Observation::bsdfSampled(const mts::BSDFSamplingRecord& record, const mts::Spectrum& weight, const mts::Float* pdf, const mts::BSDF& bsdf) {
+void Observation::bsdfSampled(const mts::BSDFSamplingRecord& record, const mts::Spectrum& weight, const mts::Float* pdf,
+                              const mts::BSDF& bsdf) {
     const mts::Intersection& its = record.its;
     begin(its.p);
     describe(its);
@@ -98,7 +106,8 @@ void Observation::bsdfSampled(const mts::BSDFSamplingRecord& record, const mts::
     tellNumbers("random numbers (direction)");
     emca_.addIntersectionData("BSDF weight", weight);
     if (weight.isZero()) {
-        emca_.setIntersectionEvent(its.isEmitter() ? Event::emission : Event::absorb, Lobe::none, [&] { return nameOf(bsdf); });
+        emca_.setIntersectionEvent(its.isEmitter() ? Event::emission : Event::absorb, Lobe::none,
+                                   [&] { return nameOf(bsdf); });
         if (context_.tally) context_.tally->invalidDirection();
         return;
     }
@@ -126,7 +135,8 @@ void Observation::bsdfDensity(const mts::BSDFSamplingRecord& record, mts::Float 
     if (isTowardsLight(record.its.p, record.its.toWorld(record.wo))) emca_.addIntersectionData("BSDF pdf (light)", pdf);
 }
 
-void Observation::phaseSampled(const mts::PhaseFunctionSamplingRecord& record, mts::Float weight, const mts::Float* pdf, const mts::PhaseFunction& phase) {
+void Observation::phaseSampled(const mts::PhaseFunctionSamplingRecord& record, mts::Float weight, const mts::Float* pdf,
+                               const mts::PhaseFunction& phase) {
     begin(record.mRec.p);
     finishLight();
     tellNumbers("random numbers (direction)");
@@ -146,13 +156,20 @@ void Observation::phaseEvaluated(const mts::PhaseFunctionSamplingRecord& record,
 }
 
 void Observation::emitted(const mts::Intersection& its, const mts::Spectrum& radiance, const mts::Emitter& emitter) {
-    const Hit hit{its, radiance, &emitter};
+    const Hit hit{its, mts::Ray(), radiance, &emitter};
     if (isHere(its.p)) return tellHit(hit);
     finishHit(nullptr);
     hit_ = hit;
 }
 
-void Observation::lightSampled(const mts::DirectSamplingRecord& record, const mts::Spectrum& value, const mts::Emitter& emitter) {
+void Observation::environmentSeen(const mts::RayDifferential& ray, const mts::Spectrum& radiance,
+                                  const mts::Emitter& emitter) {
+    finishHit(nullptr);
+    hit_ = Hit{mts::Intersection(), ray, radiance, &emitter};
+}
+
+void Observation::lightSampled(const mts::DirectSamplingRecord& record, const mts::Spectrum& value,
+                               const mts::Emitter& emitter) {
     begin(record.ref);
     finishLight();
     tellNumbers("random numbers (light)");
@@ -160,7 +177,8 @@ void Observation::lightSampled(const mts::DirectSamplingRecord& record, const mt
     light_ = Light{record.p, record.d};
     emca_.addIntersectionData("light", [&] { return nameOf(emitter); });
     emca_.addIntersectionData("light pdf", record.pdf * scene_.pdfEmitterDiscrete(&emitter));
-    emca_.addIntersectionData("light radiance over pdf", [&] { return mts::Spectrum(value / scene_.pdfEmitterDiscrete(&emitter)); });
+    emca_.addIntersectionData("light radiance over pdf",
+                              [&] { return mts::Spectrum(value / scene_.pdfEmitterDiscrete(&emitter)); });
     if (context_.tally && context_.tally->wantsNextEvents() && emitter.getShape()) {
         const SurfacePlace place = context_.shapes->place(emitter.getShape(), record.p);
         context_.tally->nextEvent({place.mesh, place.face, toVec3f(record.p)});
@@ -169,7 +187,7 @@ void Observation::lightSampled(const mts::DirectSamplingRecord& record, const mt
 
 void Observation::lightDensity(const mts::DirectSamplingRecord& record, mts::Float pdf, const mts::Emitter& emitter) {
     const mts::Float whole = pdf * scene_.pdfEmitterDiscrete(&emitter);
-    if (hit_ && hit_->its.p == record.p) {
+    if (hit_ && (hit_->its.isValid() ? hit_->its.p == record.p : hit_->emitter == &emitter)) {
         hit_->lightPdf = whole;
     } else if (isHere(record.p)) {
         emca_.addIntersectionData("light pdf (hit)", whole);
@@ -178,10 +196,17 @@ void Observation::lightDensity(const mts::DirectSamplingRecord& record, mts::Flo
 
 void Observation::end() {
     currentObservation = previous_;
-    if (hit_) {
+    if (hit_ && !hit_->its.isValid()) {
+        const Hit hit = *hit_;
+        hit_.reset();
+        leaveScene(hit.ray);
+        tellHit(hit);
+    } else if (hit_) {
         const mts::Intersection its = hit_->its;
         begin(its.p);
-        emca_.setIntersectionEvent(Event::emission, Lobe::none, [&] { return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view(); });
+        emca_.setIntersectionEvent(Event::emission, Lobe::none, [&] {
+            return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view();
+        });
     } else if (segment_ && !scene_.hasMedia()) {
         traceLastSegment();
     }
@@ -196,11 +221,17 @@ void Observation::traceLastSegment() {
     if (scene_.rayIntersect(ray, its)) {
         begin(its.p);
         describe(its);
-        emca_.setIntersectionEvent(its.isEmitter() ? Event::emission : Event::absorb, Lobe::none,
-                                   [&] { return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view(); });
+        emca_.setIntersectionEvent(its.isEmitter() ? Event::emission : Event::absorb, Lobe::none, [&] {
+            return its.shape->getBSDF() ? nameOf(*its.shape->getBSDF()) : std::string_view();
+        });
         emca_.addIntersectionData("found by EMCA", true);
         return;
     }
+    leaveScene(ray);
+    emca_.addIntersectionData("found by EMCA", true);
+}
+
+void Observation::leaveScene(const mts::Ray& ray) {
     finishVertex();
     emca_.setDepthIndex(++depth_);
     emca_.setIntersectionPosEnvmap([&] {
@@ -208,9 +239,9 @@ void Observation::traceLastSegment() {
         return ray((ray.o - bounds.center).length() + 2 * bounds.radius);
     });
     emca_.setIntersectionEvent(Event::background);
-    emca_.addIntersectionData("found by EMCA", true);
+    emca_.addIntersectionData("throughput without roulette", throughput_);
     emca_.addPathData("left scene", true);
-    if (scene_.hasEnvironmentEmitter()) emca_.setIntersectionEmission([&] { return scene_.evalEnvironment(ray); });
+    if (context_.tally) context_.tally->background();
 }
 
 }  // namespace emca::mitsuba06

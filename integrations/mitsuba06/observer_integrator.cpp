@@ -10,13 +10,15 @@
 
 namespace emca::mitsuba06 {
 
-EmcaObserver::EmcaObserver(const mts::Properties& properties) : mts::SamplingIntegrator(properties), serving_(properties) {
+EmcaObserver::EmcaObserver(const mts::Properties& properties)
+    : mts::SamplingIntegrator(properties), serving_(properties) {
     // All others are for the nested integrator, which says itself if it does not know one.
     for (const std::string& name : properties.getPropertyNames()) properties.markQueried(name);
 }
 
 void EmcaObserver::addChild(const std::string& name, mts::ConfigurableObject* child) {
-    if (!child->getClass()->derivesFrom(MTS_CLASS(mts::SamplingIntegrator))) return mts::SamplingIntegrator::addChild(name, child);
+    if (!child->getClass()->derivesFrom(MTS_CLASS(mts::SamplingIntegrator)))
+        return mts::SamplingIntegrator::addChild(name, child);
     if (observed_ != nullptr) throw std::runtime_error("emca: there are two nested integrators; one is observed.");
     observed_ = static_cast<mts::SamplingIntegrator*>(child);
 }
@@ -31,7 +33,8 @@ void EmcaObserver::configure() {
             mts::PluginManager::getInstance()->createObject(MTS_CLASS(mts::SamplingIntegrator), properties));
         observed_->configure();
         for (const std::string& name : properties.getUnqueried()) {
-            SLog(mts::EWarn, "emca: the integrator \"%s\" does not know the property \"%s\".", pluginName().c_str(), name.c_str());
+            SLog(mts::EWarn, "emca: the integrator \"%s\" does not know the property \"%s\".", pluginName().c_str(),
+                 name.c_str());
         }
     }
     traced_ = dynamic_cast<const TracedIntegrator*>(observed_.get());
@@ -40,7 +43,8 @@ void EmcaObserver::configure() {
 
 std::vector<LayerDescription> EmcaObserver::layers() const {
     if (traced_) return traced_->layers();
-    return pathLayers({PathLayer::intersections, PathLayer::nextEvents, PathLayer::invalidDirections, PathLayer::pathDepth});
+    return pathLayers(
+        {PathLayer::intersections, PathLayer::nextEvents, PathLayer::invalidDirections, PathLayer::pathDepth});
 }
 
 std::string EmcaObserver::label() const { return traced_ ? traced_->label() : pluginName() + " (observed)"; }
@@ -51,7 +55,8 @@ bool EmcaObserver::isDeterministic() const {
     return std::ranges::find(kPure, pluginName()) != kPure.end();
 }
 
-mts::Spectrum EmcaObserver::trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const {
+mts::Spectrum EmcaObserver::trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query,
+                                  const PathContext& context) const {
     if (traced_) return traced_->trace(ray, query, context);
     if (!recorder().isRecording() && !context.tally) return observed_->Li(ray, query);
     mts::Sampler* const sampler = query.sampler;
@@ -64,11 +69,13 @@ mts::Spectrum EmcaObserver::trace(const mts::RayDifferential& ray, mts::Radiance
     return radiance;
 }
 
-bool EmcaObserver::preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) {
+bool EmcaObserver::preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                              int sensorId, int samplerId) {
     return observed_->preprocess(scene, queue, job, sceneId, sensorId, samplerId);
 }
 
-bool EmcaObserver::render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) {
+bool EmcaObserver::render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                          int sensorId, int samplerId) {
     if (!observed_->render(scene, queue, job, sceneId, sensorId, samplerId)) return false;
     if (!serving_.isAsked()) return true;
     const ObservedScene proxies(*scene);
@@ -76,7 +83,8 @@ bool EmcaObserver::render(mts::Scene* scene, mts::RenderQueue* queue, const mts:
     return true;
 }
 
-void EmcaObserver::postprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) {
+void EmcaObserver::postprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                               int sensorId, int samplerId) {
     observed_->postprocess(scene, queue, job, sceneId, sensorId, samplerId);
 }
 
@@ -85,7 +93,9 @@ void EmcaObserver::cancel() {
     serving_.stop();
 }
 
-void EmcaObserver::configureSampler(const mts::Scene* scene, mts::Sampler* sampler) { observed_->configureSampler(scene, sampler); }
+void EmcaObserver::configureSampler(const mts::Scene* scene, mts::Sampler* sampler) {
+    observed_->configureSampler(scene, sampler);
+}
 
 using mts::Class;
 MTS_IMPLEMENT_CLASS(EmcaObserver, false, SamplingIntegrator)

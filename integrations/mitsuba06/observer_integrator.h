@@ -18,17 +18,25 @@ class EmcaObserver final : public mts::SamplingIntegrator, public TracedIntegrat
     void addChild(const std::string& name, mts::ConfigurableObject* child) override;
     void configure() override;
 
-    mts::Spectrum Li(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query) const override { return observed_->Li(ray, query); }
-    mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const override;
+    mts::Spectrum Li(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query) const override {
+        return observed_->Li(ray, query);
+    }
+    mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query,
+                        const PathContext& context) const override;
     std::vector<LayerDescription> layers() const override;
     std::string label() const override;
     bool isDeterministic() const override;
-    mts::SamplingIntegrator& computing() const override { return *const_cast<mts::SamplingIntegrator*>(observed_.get()); }
+    mts::SamplingIntegrator& computing() const override {
+        return *const_cast<mts::SamplingIntegrator*>(observed_.get());
+    }
 
-    bool preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) override;
+    bool preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                    int sensorId, int samplerId) override;
     /// Lets the stock integrator render, then serves if asked to.
-    bool render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) override;
-    void postprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) override;
+    bool render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId,
+                int samplerId) override;
+    void postprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                     int sensorId, int samplerId) override;
     void cancel() override;
     void configureSampler(const mts::Scene* scene, mts::Sampler* sampler) override;
     const mts::Integrator* getSubIntegrator(int index) const override { return index == 0 ? observed_.get() : nullptr; }

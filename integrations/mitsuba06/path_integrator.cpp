@@ -36,12 +36,13 @@ struct EmcaPathIntegrator::Walk {
     PathRecorder emca = recorder();
     mts::RayDifferential ray;
     mts::Spectrum estimate{mts::Float(0)}, throughput{mts::Float(1)};
-    mts::Float eta = 1;      ///< product of relative indices of refraction: roulette must not see radiance squeezed inside glass
-    int depth = 1;           ///< segments up to here
+    mts::Float eta =
+        1;          ///< product of relative indices of refraction: roulette must not see radiance squeezed inside glass
+    int depth = 1;  ///< segments up to here
     std::optional<mts::DirectSamplingRecord> from;  ///< the vertex before, for the densities of light sampling there
-    mts::Float pdf = 0;      ///< density with which the last direction was chosen
-    bool direct = true;      ///< the segment comes from the camera
-    bool delta = false;      ///< the last direction was one of a discrete set
+    mts::Float pdf = 0;                             ///< density with which the last direction was chosen
+    bool direct = true;                             ///< the segment comes from the camera
+    bool delta = false;                             ///< the last direction was one of a discrete set
 
     /// As it reaches the pixel. Not part of the estimate itself: that is the same whatever the sensor does with it.
     mts::Spectrum seen(const mts::Spectrum& value) const { return context.cameraWeight * value; }
@@ -51,9 +52,11 @@ struct EmcaPathIntegrator::Walk {
     }
 };
 
-EmcaPathIntegrator::EmcaPathIntegrator(const mts::Properties& properties) : mts::MonteCarloIntegrator(properties), serving_(properties) {}
+EmcaPathIntegrator::EmcaPathIntegrator(const mts::Properties& properties)
+    : mts::MonteCarloIntegrator(properties), serving_(properties) {}
 
-mts::Spectrum EmcaPathIntegrator::trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const {
+mts::Spectrum EmcaPathIntegrator::trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query,
+                                        const PathContext& context) const {
     Walk walk(ray, query, context);
     PathRecorder& emca = walk.emca;
     mts::Intersection& its = query.its;
@@ -67,7 +70,8 @@ mts::Spectrum EmcaPathIntegrator::trace(const mts::RayDifferential& ray, mts::Ra
             end = "left the scene";
             break;
         }
-        const SurfacePlace place = context.shapes && (emca.isRecording() || context.tally) ? context.shapes->place(its) : SurfacePlace{};
+        const SurfacePlace place =
+            context.shapes && (emca.isRecording() || context.tally) ? context.shapes->place(its) : SurfacePlace{};
         emca.setIntersectionPos(its.p);
         if (place) emca.setIntersectionSurface(place.mesh, place.face);
         emca.addIntersectionData("shape", [&] { return nameOf(*its.shape); });
@@ -116,7 +120,8 @@ mts::Spectrum EmcaPathIntegrator::trace(const mts::RayDifferential& ray, mts::Ra
     return walk.estimate;
 }
 
-bool EmcaPathIntegrator::violatesStrictNormals(const mts::Intersection& its, const mts::Vector& world, const mts::Vector& local) const {
+bool EmcaPathIntegrator::violatesStrictNormals(const mts::Intersection& its, const mts::Vector& world,
+                                               const mts::Vector& local) const {
     return m_strictNormals && dot(its.geoFrame.n, world) * mts::Frame::cosTheta(local) <= 0;
 }
 
@@ -149,11 +154,13 @@ void EmcaPathIntegrator::environment(Walk& walk) const {
     walk.emca.setIntersectionEmission(emitted);
     if (emitted.isZero()) return;
     mts::Float lightPdf = 0;
-    if (walk.from && !walk.delta && light->fillDirectSamplingRecord(*walk.from, walk.ray)) lightPdf = walk.scene.pdfEmitterDirect(*walk.from);
+    if (walk.from && !walk.delta && light->fillDirectSamplingRecord(*walk.from, walk.ray))
+        lightPdf = walk.scene.pdfEmitterDirect(*walk.from);
     addHit(walk, emitted, lightPdf, *light);
 }
 
-void EmcaPathIntegrator::addHit(Walk& walk, const mts::Spectrum& emission, mts::Float lightPdf, const mts::Emitter& emitter) const {
+void EmcaPathIntegrator::addHit(Walk& walk, const mts::Spectrum& emission, mts::Float lightPdf,
+                                const mts::Emitter& emitter) const {
     const mts::Float weight = walk.direct || walk.delta ? mts::Float(1) : powerHeuristic(walk.pdf, lightPdf);
     walk.add(walk.throughput * emission * weight, walk.direct ? "emitter hit" : "BSDF sampling", weight, LightEnd::hit);
     if (walk.context.tally) walk.context.tally->hit(toColor(emission * weight));
@@ -166,7 +173,8 @@ void EmcaPathIntegrator::subsurface(Walk& walk) const {
     const mts::Intersection& its = walk.query.its;
     if (!its.hasSubsurface()) return;
     const mts::Spectrum radiance = its.LoSub(&walk.scene, walk.query.sampler, -walk.ray.d, walk.depth);
-    walk.add(walk.throughput * radiance, "subsurface", std::numeric_limits<mts::Float>::quiet_NaN(), LightEnd::automatic);
+    walk.add(walk.throughput * radiance, "subsurface", std::numeric_limits<mts::Float>::quiet_NaN(),
+             LightEnd::automatic);
     if (walk.context.tally) walk.context.tally->direct(toColor(radiance));
 }
 
@@ -199,7 +207,8 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const mts::BSDF& bsdf) const {
     const mts::Float weight = powerHeuristic(light.pdf, bsdfPdf);
     walk.emca.addIntersectionData("MIS weight (light)", weight);
     if (walk.context.tally) walk.context.tally->misWeight(static_cast<float>(weight));
-    const bool visible = !walk.scene.rayIntersect(mts::Ray(light.ref, light.d, Epsilon, light.dist * (1 - ShadowEpsilon), light.time));
+    const bool visible =
+        !walk.scene.rayIntersect(mts::Ray(light.ref, light.d, Epsilon, light.dist * (1 - ShadowEpsilon), light.time));
     walk.emca.setNextEventEstimationPos(light.p, visible);
     if (!visible) return;
     const mts::Spectrum reflected = value * radiance * weight;
@@ -243,12 +252,15 @@ bool EmcaPathIntegrator::survives(Walk& walk, mts::Float& survival) const {
     return true;
 }
 
-bool EmcaPathIntegrator::preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) {
-    if (scene->hasMedia()) SLog(mts::EWarn, "emcapath does not see participating media; use emca around volpath for them.");
+bool EmcaPathIntegrator::preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job,
+                                    int sceneId, int sensorId, int samplerId) {
+    if (scene->hasMedia())
+        SLog(mts::EWarn, "emcapath does not see participating media; use emca around volpath for them.");
     return mts::MonteCarloIntegrator::preprocess(scene, queue, job, sceneId, sensorId, samplerId);
 }
 
-bool EmcaPathIntegrator::render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) {
+bool EmcaPathIntegrator::render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                                int sensorId, int samplerId) {
     const bool complete = mts::MonteCarloIntegrator::render(scene, queue, job, sceneId, sensorId, samplerId);
     if (complete) serving_.run(*scene, *this);
     return complete;

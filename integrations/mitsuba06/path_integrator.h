@@ -9,23 +9,28 @@ namespace emca::mitsuba06 {
 /// "emcapath": a path tracer with next-event estimation, multiple importance sampling and Russian roulette that records
 /// every value on its way. Surfaces only: participating media are not seen.
 ///
-/// Properties: those of MonteCarloIntegrator (maxDepth, rrDepth, strictNormals, hideEmitters) with Mitsuba's meanings, and
-/// those of Serving.
+/// Properties: those of MonteCarloIntegrator (maxDepth, rrDepth, strictNormals, hideEmitters) with Mitsuba's meanings,
+/// and those of Serving.
 class EmcaPathIntegrator final : public mts::MonteCarloIntegrator, public TracedIntegrator {
   public:
     explicit EmcaPathIntegrator(const mts::Properties& properties);
 
-    mts::Spectrum Li(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query) const override { return trace(ray, query, {}); }
-    mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const override;
+    mts::Spectrum Li(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query) const override {
+        return trace(ray, query, {});
+    }
+    mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query,
+                        const PathContext& context) const override;
 
     std::vector<LayerDescription> layers() const override { return pathLayers(); }
     std::string label() const override { return "emcapath"; }
     bool isDeterministic() const override { return true; }
     mts::SamplingIntegrator& computing() const override { return const_cast<EmcaPathIntegrator&>(*this); }
 
-    bool preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) override;
+    bool preprocess(const mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId,
+                    int sensorId, int samplerId) override;
     /// Renders as Mitsuba does, then serves if asked to.
-    bool render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId, int samplerId) override;
+    bool render(mts::Scene* scene, mts::RenderQueue* queue, const mts::RenderJob* job, int sceneId, int sensorId,
+                int samplerId) override;
     void cancel() override;
     std::string toString() const override { return "EmcaPathIntegrator[]"; }
 

@@ -12,9 +12,13 @@
 namespace emca::mitsuba06 {
 
 PixelSampler::PixelSampler(SamplingTask task, mts::ref<mts::Sampler> sampler, SurfaceRecorder* surface)
-    : task_(std::move(task)), sampler_(sampler), sensor_(*task_.scene->getSensor()), cropOffset_(sensor_.getFilm()->getCropOffset()),
+    : task_(std::move(task)),
+      sampler_(sampler),
+      sensor_(*task_.scene->getSensor()),
+      cropOffset_(sensor_.getFilm()->getCropOffset()),
       width_(static_cast<std::uint32_t>(sensor_.getFilm()->getCropSize().x)),
-      differentialScale_(1 / std::sqrt(static_cast<mts::Float>(sampler->getSampleCount()))), query_(task_.scene, sampler_.get()) {
+      differentialScale_(1 / std::sqrt(static_cast<mts::Float>(sampler->getSampleCount()))),
+      query_(task_.scene, sampler_.get()) {
     if (surface) tally_.emplace(layers_.emplace(*surface));
     block_ = new mts::ImageBlock(mts::Bitmap::ESpectrumAlphaWeight, mts::Vector2i(1, 1), task_.filter);
     queryType_ = mts::RadianceQueryRecord::ESensorRay;

@@ -27,8 +27,8 @@ struct SamplingTask {
     std::shared_ptr<std::vector<FilmPixel>> film;
 };
 
-/// Samples pixels as Mitsuba's sampling integrators do: the same calls to sampler and sensor in the same order, and its own
-/// film code for the pixel's value.
+/// Samples pixels as Mitsuba's sampling integrators do: the same calls to sampler and sensor in the same order, and its
+/// own film code for the pixel's value.
 class PixelSampler final : public adapter::PixelWorker {
   public:
     /// In the thread that samples. \param sampler  of this worker alone

@@ -6,10 +6,16 @@
 
 namespace emca::mitsuba06 {
 
-void* makeObserver(const mitsuba::Properties& properties) { return static_cast<mts::ConfigurableObject*>(new EmcaObserver(properties)); }
+void* makeObserver(const mitsuba::Properties& properties) {
+    return static_cast<mts::ConfigurableObject*>(new EmcaObserver(properties));
+}
 
-void* makePathIntegrator(const mitsuba::Properties& properties) { return static_cast<mts::ConfigurableObject*>(new EmcaPathIntegrator(properties)); }
+void* makePathIntegrator(const mitsuba::Properties& properties) {
+    return static_cast<mts::ConfigurableObject*>(new EmcaPathIntegrator(properties));
+}
 
-void* makeSampler(const mitsuba::Properties& properties) { return static_cast<mts::ConfigurableObject*>(new EmcaSampler(properties)); }
+void* makeSampler(const mitsuba::Properties& properties) {
+    return static_cast<mts::ConfigurableObject*>(new EmcaSampler(properties));
+}
 
 }  // namespace emca::mitsuba06

@@ -36,21 +36,31 @@ class ObservedBsdf final : public mts::BSDF {
     mts::Spectrum eval(const mts::BSDFSamplingRecord& record, mts::EMeasure measure) const override {
         const mts::Spectrum value = bsdf_.eval(record, measure);
         // Of a discrete measure: surfaces that let shadow rays pass, which are no vertices.
-        if (Observation* const observer = measure == mts::ESolidAngle ? Observation::current() : nullptr) observer->bsdfEvaluated(record, value);
+        if (Observation* const observer = measure == mts::ESolidAngle ? Observation::current() : nullptr)
+            observer->bsdfEvaluated(record, value);
         return value;
     }
     mts::Float pdf(const mts::BSDFSamplingRecord& record, mts::EMeasure measure) const override {
         const mts::Float pdf = bsdf_.pdf(record, measure);
-        if (Observation* const observer = measure == mts::ESolidAngle ? Observation::current() : nullptr) observer->bsdfDensity(record, pdf);
+        if (Observation* const observer = measure == mts::ESolidAngle ? Observation::current() : nullptr)
+            observer->bsdfDensity(record, pdf);
         return pdf;
     }
 
-    mts::Spectrum getDiffuseReflectance(const mts::Intersection& its) const override { return bsdf_.getDiffuseReflectance(its); }
-    mts::Spectrum getSpecularReflectance(const mts::Intersection& its) const override { return bsdf_.getSpecularReflectance(its); }
+    mts::Spectrum getDiffuseReflectance(const mts::Intersection& its) const override {
+        return bsdf_.getDiffuseReflectance(its);
+    }
+    mts::Spectrum getSpecularReflectance(const mts::Intersection& its) const override {
+        return bsdf_.getSpecularReflectance(its);
+    }
     mts::Float getEta() const override { return bsdf_.getEta(); }
-    mts::Float getRoughness(const mts::Intersection& its, int component) const override { return bsdf_.getRoughness(its, component); }
+    mts::Float getRoughness(const mts::Intersection& its, int component) const override {
+        return bsdf_.getRoughness(its, component);
+    }
     mts::Frame getFrame(const mts::Intersection& its) const override { return bsdf_.getFrame(its); }
-    void getFrameDerivative(const mts::Intersection& its, mts::Frame& du, mts::Frame& dv) const override { bsdf_.getFrameDerivative(its, du, dv); }
+    void getFrameDerivative(const mts::Intersection& its, mts::Frame& du, mts::Frame& dv) const override {
+        bsdf_.getFrameDerivative(its, du, dv);
+    }
     mts::Shader* createShader(mts::Renderer* renderer) const override { return bsdf_.createShader(renderer); }
     std::string toString() const override { return bsdf_.toString(); }
     const mts::Class* getClass() const override { return bsdf_.getClass(); }
@@ -62,7 +72,10 @@ class ObservedBsdf final : public mts::BSDF {
 
 class ObservedEmitter final : public mts::Emitter {
   public:
-    explicit ObservedEmitter(mts::Emitter& inner) : mts::Emitter(named(nameOf(static_cast<const mts::ConfigurableObject&>(inner)))), inner_(&inner), emitter_(inner) {
+    explicit ObservedEmitter(mts::Emitter& inner)
+        : mts::Emitter(named(nameOf(static_cast<const mts::ConfigurableObject&>(inner)))),
+          inner_(&inner),
+          emitter_(inner) {
         m_type = inner.getType();
         m_shape = inner.getShape();
         m_medium = inner.getMedium();
@@ -86,18 +99,43 @@ class ObservedEmitter final : public mts::Emitter {
         return pdf;
     }
 
-    mts::Spectrum samplePosition(mts::PositionSamplingRecord& record, const mts::Point2& u, const mts::Point2* extra) const override { return emitter_.samplePosition(record, u, extra); }
-    mts::Spectrum sampleDirection(mts::DirectionSamplingRecord& direction, mts::PositionSamplingRecord& position, const mts::Point2& u, const mts::Point2* extra) const override {
+    mts::Spectrum samplePosition(mts::PositionSamplingRecord& record, const mts::Point2& u,
+                                 const mts::Point2* extra) const override {
+        return emitter_.samplePosition(record, u, extra);
+    }
+    mts::Spectrum sampleDirection(mts::DirectionSamplingRecord& direction, mts::PositionSamplingRecord& position,
+                                  const mts::Point2& u, const mts::Point2* extra) const override {
         return emitter_.sampleDirection(direction, position, u, extra);
     }
-    mts::Spectrum evalPosition(const mts::PositionSamplingRecord& record) const override { return emitter_.evalPosition(record); }
-    mts::Spectrum evalDirection(const mts::DirectionSamplingRecord& direction, const mts::PositionSamplingRecord& position) const override { return emitter_.evalDirection(direction, position); }
-    mts::Float pdfPosition(const mts::PositionSamplingRecord& record) const override { return emitter_.pdfPosition(record); }
-    mts::Float pdfDirection(const mts::DirectionSamplingRecord& direction, const mts::PositionSamplingRecord& position) const override { return emitter_.pdfDirection(direction, position); }
-    mts::Spectrum sampleRay(mts::Ray& ray, const mts::Point2& spatial, const mts::Point2& directional, mts::Float time) const override { return emitter_.sampleRay(ray, spatial, directional, time); }
+    mts::Spectrum evalPosition(const mts::PositionSamplingRecord& record) const override {
+        return emitter_.evalPosition(record);
+    }
+    mts::Spectrum evalDirection(const mts::DirectionSamplingRecord& direction,
+                                const mts::PositionSamplingRecord& position) const override {
+        return emitter_.evalDirection(direction, position);
+    }
+    mts::Float pdfPosition(const mts::PositionSamplingRecord& record) const override {
+        return emitter_.pdfPosition(record);
+    }
+    mts::Float pdfDirection(const mts::DirectionSamplingRecord& direction,
+                            const mts::PositionSamplingRecord& position) const override {
+        return emitter_.pdfDirection(direction, position);
+    }
+    mts::Spectrum sampleRay(mts::Ray& ray, const mts::Point2& spatial, const mts::Point2& directional,
+                            mts::Float time) const override {
+        return emitter_.sampleRay(ray, spatial, directional, time);
+    }
     mts::ref<mts::Bitmap> getBitmap(const mts::Vector2i& size) const override { return emitter_.getBitmap(size); }
-    mts::Spectrum evalEnvironment(const mts::RayDifferential& ray) const override { return emitter_.evalEnvironment(ray); }
-    bool fillDirectSamplingRecord(mts::DirectSamplingRecord& record, const mts::Ray& ray) const override { return emitter_.fillDirectSamplingRecord(record, ray); }
+    mts::Spectrum evalEnvironment(const mts::RayDifferential& ray) const override {
+        const mts::Spectrum radiance = emitter_.evalEnvironment(ray);
+        if (Observation* const observer = Observation::current()) observer->environmentSeen(ray, radiance, emitter_);
+        return radiance;
+    }
+    bool fillDirectSamplingRecord(mts::DirectSamplingRecord& record, const mts::Ray& ray) const override {
+        if (!emitter_.fillDirectSamplingRecord(record, ray)) return false;
+        record.object = this;  // or densities would be asked of the original
+        return true;
+    }
     bool isCompound() const override { return emitter_.isCompound(); }
     mts::Emitter* getElement(std::size_t index) override { return inner_->getElement(index); }
     mts::ref<mts::Shape> createShape(const mts::Scene* scene) override { return inner_->createShape(scene); }
@@ -113,7 +151,10 @@ class ObservedEmitter final : public mts::Emitter {
 
 class ObservedPhase final : public mts::PhaseFunction {
   public:
-    explicit ObservedPhase(mts::PhaseFunction& inner) : mts::PhaseFunction(named(nameOf(inner))), inner_(&inner), phase_(inner) { m_type = inner.getType(); }
+    explicit ObservedPhase(mts::PhaseFunction& inner)
+        : mts::PhaseFunction(named(nameOf(inner))), inner_(&inner), phase_(inner) {
+        m_type = inner.getType();
+    }
 
     mts::Float eval(const mts::PhaseFunctionSamplingRecord& record) const override {
         const mts::Float value = phase_.eval(record);
@@ -122,7 +163,8 @@ class ObservedPhase final : public mts::PhaseFunction {
     }
     mts::Float sample(mts::PhaseFunctionSamplingRecord& record, mts::Sampler* sampler) const override {
         const mts::Float weight = phase_.sample(record, sampler);
-        if (Observation* const observer = Observation::current()) observer->phaseSampled(record, weight, nullptr, phase_);
+        if (Observation* const observer = Observation::current())
+            observer->phaseSampled(record, weight, nullptr, phase_);
         return weight;
     }
     mts::Float sample(mts::PhaseFunctionSamplingRecord& record, mts::Float& pdf, mts::Sampler* sampler) const override {
@@ -131,7 +173,9 @@ class ObservedPhase final : public mts::PhaseFunction {
         return weight;
     }
     mts::Float pdf(const mts::PhaseFunctionSamplingRecord& record) const override { return phase_.pdf(record); }
-    bool needsDirectionallyVaryingCoefficients() const override { return phase_.needsDirectionallyVaryingCoefficients(); }
+    bool needsDirectionallyVaryingCoefficients() const override {
+        return phase_.needsDirectionallyVaryingCoefficients();
+    }
     mts::Float sigmaDir(mts::Float cosTheta) const override { return phase_.sigmaDir(cosTheta); }
     mts::Float sigmaDirMax() const override { return phase_.sigmaDirMax(); }
     mts::Float getMeanCosine() const override { return phase_.getMeanCosine(); }
@@ -154,6 +198,15 @@ struct SamplerMembers : mts::Sampler {
     static constexpr auto arrays1D() { return &SamplerMembers::m_sampleArrays1D; }
     static constexpr auto arrays2D() { return &SamplerMembers::m_sampleArrays2D; }
 };
+
+/// Private members, by the rule that explicit instantiations may name them ([temp.spec.general]): Mitsuba lets nobody
+/// exchange the environment.
+template <auto Member>
+struct EnvironmentAccess {
+    friend mts::ref<mts::Emitter>& environmentOf(mts::Scene& scene) { return scene.*Member; }
+};
+template struct EnvironmentAccess<&mts::Scene::m_environmentEmitter>;
+mts::ref<mts::Emitter>& environmentOf(mts::Scene& scene);
 
 class ObservedSampler final : public mts::Sampler {
   public:
@@ -190,11 +243,17 @@ class ObservedSampler final : public mts::Sampler {
 
 }  // namespace
 
-ObservedScene::ObservedScene(mts::Scene& scene) : scene_(scene), emitterList_(scene.getEmitters()) {
+ObservedScene::ObservedScene(mts::Scene& scene)
+    : scene_(scene), emitterList_(scene.getEmitters()), environment_(environmentOf(scene)) {
     for (auto& emitter : scene.getEmitters()) {
         mts::ref<mts::Emitter>& proxy = emitters_[emitter.get()];
         if (proxy == nullptr) proxy = new ObservedEmitter(*emitter);
         emitter = proxy;
+    }
+    if (environment_ != nullptr) {
+        mts::ref<mts::Emitter>& proxy = emitters_[environment_.get()];
+        if (proxy == nullptr) proxy = new ObservedEmitter(*environment_);
+        environmentOf(scene) = proxy;
     }
     for (auto& shape : scene.getShapes()) {
         observe(*shape);
@@ -230,6 +289,7 @@ ObservedScene::~ObservedScene() {
         before.shape->setEmitter(before.emitter);
     }
     scene_.getEmitters() = emitterList_;
+    environmentOf(scene_) = environment_;
     for (auto& [medium, phase] : phases_) (*medium).*MediumMembers::phaseFunction() = phase;
 }
 

@@ -12,8 +12,7 @@
 namespace emca::mitsuba06 {
 
 /// While it lives, materials, emitters and phase functions of a scene are proxies that hand every call on to the
-/// original and tell the thread's Observation, if there is one. Results are the originals', bit by bit. Not seen: the
-/// environment as it is looked up by paths that leave the scene (Mitsuba keeps that one out of reach).
+/// original and tell the thread's Observation, if there is one. Results are the originals', bit by bit.
 class ObservedScene {
   public:
     /// No thread may render meanwhile; nor while it is destroyed.
@@ -26,7 +25,7 @@ class ObservedScene {
     void observe(mts::Shape& shape);
 
     mts::Scene& scene_;
-    std::map<mts::BSDF*, mts::ref<mts::BSDF>> bsdfs_;           ///< original, proxy
+    std::map<mts::BSDF*, mts::ref<mts::BSDF>> bsdfs_;  ///< original, proxy
     std::map<mts::Emitter*, mts::ref<mts::Emitter>> emitters_;
     struct ShapeBefore {
         mts::Shape* shape;
@@ -34,7 +33,8 @@ class ObservedScene {
         mts::ref<mts::Emitter> emitter;
     };
     std::vector<ShapeBefore> shapes_;
-    mts::ref_vector<mts::Emitter> emitterList_;                  ///< the scene's own
+    mts::ref_vector<mts::Emitter> emitterList_;  ///< the scene's own
+    mts::ref<mts::Emitter> environment_;         ///< likewise
     std::vector<std::pair<mts::Medium*, mts::ref<mts::PhaseFunction>>> phases_;
 };
 

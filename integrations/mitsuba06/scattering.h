@@ -14,7 +14,9 @@ struct Scattering {
 inline Scattering scatteringOf(unsigned int sampledType) {
     using mts::BSDF;
     if (sampledType & BSDF::ENull) return {Event::pass, Lobe::straight};
-    const Event event = sampledType & BSDF::EReflection ? Event::reflect : sampledType & BSDF::ETransmission ? Event::transmit : Event::none;
+    const Event event = sampledType & BSDF::EReflection     ? Event::reflect
+                        : sampledType & BSDF::ETransmission ? Event::transmit
+                                                            : Event::none;
     if (sampledType & BSDF::EDiffuse) return {event, Lobe::diffuse};
     if (sampledType & BSDF::EGlossy) return {event, Lobe::glossy};
     return {event, sampledType & (BSDF::EDelta | BSDF::EDelta1D) ? Lobe::specular : Lobe::none};

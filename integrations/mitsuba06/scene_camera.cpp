@@ -16,7 +16,8 @@ Camera byRays(const mts::Sensor& sensor) {
     const mts::Film& film = *sensor.getFilm();
     const auto rayAt = [&](double x, double y) {
         mts::Ray ray;
-        const mts::Point2 at(mts::Float(film.getCropOffset().x + x * film.getCropSize().x), mts::Float(film.getCropOffset().y + y * film.getCropSize().y));
+        const mts::Point2 at(mts::Float(film.getCropOffset().x + x * film.getCropSize().x),
+                             mts::Float(film.getCropOffset().y + y * film.getCropSize().y));
         sensor.sampleRay(ray, at, mts::Point2(mts::Float(0.5), mts::Float(0.5)), 0);
         return ray;
     };
@@ -46,7 +47,8 @@ Camera cameraOf(const mts::Scene& scene) {
     const bool wholeImage = film.getCropSize() == film.getSize();
     const std::string& kind = sensor.getClass()->getName();
     Camera camera;
-    if ((sensor.getType() & mts::Sensor::EPerspectiveCamera) && sensor.getClass()->derivesFrom(MTS_CLASS(mts::PerspectiveCamera)) && wholeImage) {
+    if ((sensor.getType() & mts::Sensor::EPerspectiveCamera) &&
+        sensor.getClass()->derivesFrom(MTS_CLASS(mts::PerspectiveCamera)) && wholeImage) {
         const auto& perspective = static_cast<const mts::PerspectiveCamera&>(sensor);
         camera.kind = CameraKind::perspective;
         placeBy(perspective.getWorldTransform(sensor.getShutterOpen()), camera);
@@ -55,7 +57,8 @@ Camera cameraOf(const mts::Scene& scene) {
             camera.apertureRadius = static_cast<float>(sensor.getProperties().getFloat("apertureRadius", 0));
             camera.focusDistance = static_cast<float>(perspective.getFocusDistance());
         }
-    } else if ((sensor.getType() & mts::Sensor::EOrthographicCamera) && sensor.getClass()->derivesFrom(MTS_CLASS(mts::ProjectiveCamera))) {
+    } else if ((sensor.getType() & mts::Sensor::EOrthographicCamera) &&
+               sensor.getClass()->derivesFrom(MTS_CLASS(mts::ProjectiveCamera))) {
         camera.kind = CameraKind::orthographic;
         placeBy(static_cast<const mts::ProjectiveCamera&>(sensor).getWorldTransform(sensor.getShutterOpen()), camera);
     } else {

@@ -44,9 +44,11 @@ void describe(const mts::Shape& shape, Mesh& mesh) {
     if (mesh.triangles.empty()) return;
     const mts::Intersection its = middleOf(shape, mesh);
     if (shape.getBSDF()) {
-        const Color diffuse = toColor(shape.getBSDF()->getDiffuseReflectance(its)), specular = toColor(shape.getBSDF()->getSpecularReflectance(its));
+        const Color diffuse = toColor(shape.getBSDF()->getDiffuseReflectance(its)),
+                    specular = toColor(shape.getBSDF()->getSpecularReflectance(its));
         const auto shown = [](float d, float s) { return std::clamp(d > 0 ? d : 0.5f * (s > 0 ? s : 1.f), 0.f, 1.f); };
-        mesh.diffuse = isBlack(diffuse) ? Color(shown(0, specular.r), shown(0, specular.g), shown(0, specular.b)) : diffuse;
+        mesh.diffuse =
+            isBlack(diffuse) ? Color(shown(0, specular.r), shown(0, specular.g), shown(0, specular.b)) : diffuse;
     }
     if (shape.getEmitter()) mesh.emission = toColor(shape.getEmitter()->eval(its, its.shFrame.n));
 }
@@ -54,7 +56,8 @@ void describe(const mts::Shape& shape, Mesh& mesh) {
 Mesh toMesh(const mts::TriMesh& source, const mts::Transform& toWorld) {
     Mesh mesh;
     mesh.positions.reserve(source.getVertexCount());
-    for (std::size_t i = 0; i < source.getVertexCount(); ++i) mesh.positions.push_back(toVec3f(toWorld(source.getVertexPositions()[i])));
+    for (std::size_t i = 0; i < source.getVertexCount(); ++i)
+        mesh.positions.push_back(toVec3f(toWorld(source.getVertexPositions()[i])));
     mesh.triangles.reserve(source.getTriangleCount());
     for (std::size_t i = 0; i < source.getTriangleCount(); ++i) {
         const std::uint32_t* const idx = source.getTriangles()[i].idx;
@@ -86,7 +89,8 @@ std::string_view nameOf(const mts::ConfigurableObject& object) {
 }
 
 std::string nameOf(const mts::Emitter& emitter) {
-    return emitter.getShape() ? nameOf(*emitter.getShape()) : std::string(nameOf(static_cast<const mts::ConfigurableObject&>(emitter)));
+    return emitter.getShape() ? nameOf(*emitter.getShape())
+                              : std::string(nameOf(static_cast<const mts::ConfigurableObject&>(emitter)));
 }
 
 std::string nameOf(const mts::Shape& shape) {

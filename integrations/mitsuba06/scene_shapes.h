@@ -35,8 +35,8 @@ class SceneShapes {
   private:
     struct Entry {
         std::int32_t mesh;
-        bool isTriMesh;                             ///< faces are those of Mitsuba
-        std::unique_ptr<const NearestFace> nearest; ///< where they are not, and for emitters
+        bool isTriMesh;                              ///< faces are those of Mitsuba
+        std::unique_ptr<const NearestFace> nearest;  ///< where they are not, and for emitters
     };
     void add(mts::Shape& shape);
     void addInstance(mts::Shape& instance, mts::Float time);
@@ -44,8 +44,8 @@ class SceneShapes {
     const Entry* find(const mts::Shape* instance, const mts::Shape* shape) const;
 
     std::vector<Mesh> meshes_;
-    std::unordered_map<const mts::Shape*, Entry> entries_;                                  ///< of shapes of the scene
-    std::map<std::pair<const mts::Shape*, const mts::Shape*>, Entry> instanced_;            ///< (instance, shape)
+    std::unordered_map<const mts::Shape*, Entry> entries_;                        ///< of shapes of the scene
+    std::map<std::pair<const mts::Shape*, const mts::Shape*>, Entry> instanced_;  ///< (instance, shape)
 };
 
 /// The shapes of the group that an instance places in the scene; none if the shape is no instance.

@@ -52,7 +52,8 @@ void Serving::run(mts::Scene& scene, const TracedIntegrator& traced) {
     auto server = Server::start(renderer, options);
     // Told on the terminal even where Mitsuba is to be quiet: its image is done, but somebody waits for the server.
     if (!server) return void(std::cerr << "EMCA: " << server.error().message << std::endl);
-    if (auto added = (*server)->addTool(makeLightProbeTool(renderer)); !added) return void(std::cerr << "EMCA: " << added.error().message << std::endl);
+    if (auto added = (*server)->addTool(makeLightProbeTool(renderer)); !added)
+        return void(std::cerr << "EMCA: " << added.error().message << std::endl);
     {
         const std::lock_guard lock(mutex_);
         running_ = server->get();

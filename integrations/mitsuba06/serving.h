@@ -13,8 +13,9 @@ namespace emca::mitsuba06 {
 /// What an integrator of ours does when its image is done: serves the scene to explorers, if the scene file or the
 /// environment says where.
 ///
-/// Properties of the integrator: "serve" ("PORT" or "HOST:PORT"), or "port" (integer) and "host"; "token". Where none of
-/// them is given, the environment variables EMCA_SERVE and EMCA_TOKEN count, so that a scene file need not be touched.
+/// Properties of the integrator: "serve" ("PORT" or "HOST:PORT"), or "port" (integer) and "host"; "token". Where none
+/// of them is given, the environment variables EMCA_SERVE and EMCA_TOKEN count, so that a scene file need not be
+/// touched.
 class Serving {
   public:
     /// Throws, as Mitsuba's constructors do, if the address cannot be read.

@@ -12,9 +12,9 @@ namespace emca::mitsuba06 {
 
 /// What surrounds one path. A plain value, valid during the call that it is given to.
 struct PathContext {
-    const SceneShapes* shapes = nullptr;          ///< null where nobody wants to know surfaces
-    mts::Spectrum cameraWeight{mts::Float(1)};    ///< what the sensor multiplies the radiance with: for what is recorded
-    PathTally* tally = nullptr;                ///< null unless surface layers are collected
+    const SceneShapes* shapes = nullptr;        ///< null where nobody wants to know surfaces
+    mts::Spectrum cameraWeight{mts::Float(1)};  ///< what the sensor multiplies the radiance with: for what is recorded
+    PathTally* tally = nullptr;                 ///< null unless surface layers are collected
 };
 
 /// An integrator whose paths EMCA can follow. trace() gives the bits of Li(), whoever listens.
@@ -24,7 +24,8 @@ class TracedIntegrator {
 
     /// Radiance along a ray, as SamplingIntegrator::Li. If the thread is inside a RecordScope whose path has begun, the
     /// vertices are recorded. For several threads at once.
-    virtual mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query, const PathContext& context) const = 0;
+    virtual mts::Spectrum trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query,
+                                const PathContext& context) const = 0;
 
     /// The surface layers that trace() can add to.
     virtual std::vector<LayerDescription> layers() const = 0;
