@@ -122,6 +122,7 @@ Result<RenderedImage> BridgeRenderer::renderImageWithLayers(const RenderSettings
     if (map.without > 0) {
         log(std::to_string(map.without) + " triangles of the scene are not in the heat map, which is that of another subdivision: start server and bridge anew.");
     }
+    map.field.counts.budgetBytes = surface.counts().budgetBytes;  // which the published server did not know of
     if (auto set = surface.setField(std::move(map.field)); !set) return set.error();
     return std::move(rendered->image);
 }

@@ -17,7 +17,7 @@ const LayerDescription& heatMapColors() {
 }
 
 const LayerDescription& heatMapNumbers() {
-    static const LayerDescription layer{"published heat map, as a number", LayerKind::mean, "",
+    static const LayerDescription layer{"published heat map (number)", LayerKind::mean, "",
                                         "What the published server collected: the value where red, green and blue are equal, else their luminance."};
     return layer;
 }
@@ -185,7 +185,11 @@ HeatMap heatMapOn(std::span<const Mesh> meshes, std::span<const PublishedShape> 
     // The wire does not say how many samples a face got: each that has a value counts as one.
     map.field.counts.points = static_cast<std::uint64_t>(std::count(points.begin(), points.end(), 1.f));
     map.field.points = SharedArray<float>(std::move(points));
-    for (const LayerDescription& description : layers) map.field.layers.push_back(layer(description, colors));
+    map.field.counts.bytesUsed = map.field.points.size() * sizeof(float);
+    for (const LayerDescription& description : layers) {
+        map.field.layers.push_back(layer(description, colors));
+        map.field.counts.bytesUsed += map.field.layers.back().values.size() * sizeof(float);
+    }
     return map;
 }
 

@@ -84,7 +84,7 @@ class Terminal {
             return;
         }
         if (std::smatch match; std::regex_search(command, match, std::regex(R"(^cmake .*-D(EMCA_[A-Z0-9_]+)=)"))) return knowOptions(command);
-        if (std::smatch match; std::regex_search(command, match, std::regex(R"(^(?:\S*/)?(emca-(?:pbrt|lajolla|nori)|mitsuba)\b)"))) return knowAdapter(match[1], command);
+        if (std::smatch match; std::regex_search(command, match, std::regex(R"(^(?:\S*/)?(emca-(?:bridge|pbrt|lajolla|nori)|mitsuba)\b)"))) return knowAdapter(match[1], command);
         if (command.rfind("cmake --install ", 0) == 0) return;  // tests/consumer installs and uses it
         // python/tests install the package, and serve and read back this example.
         if (command.rfind("python3 -m venv ", 0) == 0 || command.find("/bin/pip install ") != std::string::npos) return;
@@ -108,7 +108,7 @@ class Terminal {
     }
 
     static void knowAdapter(const std::string& program, const std::string& command) {
-        const std::map<std::string, std::string> folders{{"emca-pbrt", "pbrt4"}, {"emca-lajolla", "lajolla"}, {"emca-nori", "nori"}, {"mitsuba", "mitsuba06"}};
+        const std::map<std::string, std::string> folders{{"emca-bridge", "emca2021"}, {"emca-pbrt", "pbrt4"}, {"emca-lajolla", "lajolla"}, {"emca-nori", "nori"}, {"mitsuba", "mitsuba06"}};
         const fs::path folder = kSource / "integrations" / folders.at(program);
         ASSERT_TRUE(fs::exists(folder / "CMakeLists.txt"));
         if (program == "mitsuba") return;  // its options are Mitsuba's
