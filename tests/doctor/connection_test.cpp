@@ -16,18 +16,18 @@ std::string bytesOf(protocol::Body body) {
     return std::string(reinterpret_cast<const char*>(header.data()), header.size()) + std::string(reinterpret_cast<const char*>(frame->data()), frame->size());
 }
 
-Examination examined(std::uint16_t port) {
+Examination examined(std::uint16_t port, std::chrono::milliseconds patience = std::chrono::seconds(10)) {
     ExaminationOptions options;
     options.pixels = 10;
-    options.connection.connectTimeout = std::chrono::milliseconds(500);
-    options.connection.silenceTimeout = std::chrono::milliseconds(2000);
+    options.connection.connectTimeout = patience;
+    options.connection.silenceTimeout = std::chrono::seconds(10);
     auto examination = examine({"127.0.0.1", port}, options);
     EXPECT_TRUE(examination.ok());
     return std::move(examination).value();
 }
 
 void expectNoHandshake(std::uint16_t port, ErrorCode code) {
-    const Examination examination = examined(port);
+    const Examination examination = examined(port, std::chrono::milliseconds(code == ErrorCode::timedOut ? 300 : 10000));
     ASSERT_TRUE(examination.lost);
     EXPECT_STREQ(name(examination.lost->code), name(code)) << examination.lost->message;
     ASSERT_EQ(examination.findings.size(), 1u);

@@ -22,7 +22,6 @@ struct Sick {
         EXPECT_TRUE(server->addTool(probe).ok());
     }
     Examination examine(ExaminationOptions options = {}) const {
-        options.cancelLimitSeconds = 0.2;
         auto examined = doctor::examine({"127.0.0.1", server->port()}, options);
         EXPECT_TRUE(examined.ok());
         return std::move(examined).value();
@@ -195,6 +194,7 @@ TEST(Doctor, Camera) {
 
 TEST(Doctor, LayersAndTools) {
     expectDiagnosis(Fault::layersChangeImage, {{"layers", kFailed}}, {"other than without layers"});
+    expectDiagnosis(Fault::layersEmpty, {{"layers", kWarning}}, {"No layer has any value"});
     expectDiagnosis(Fault::layersOffTheMeshes, {{"layers", kFailed}}, {"on no face"});
     expectDiagnosis(Fault::layersInfinite, {{"layers", kWarning}}, {"\"pdf\"", "not finite"});
     expectDiagnosis(Fault::probeRandom, {{"light-probe", kFailed}}, {"other bits"});
@@ -208,7 +208,7 @@ TEST(Doctor, BadRequests) {
 
 TEST(Doctor, Cancel) {
     const Sick stubborn(Fault::ignoresCancel);
-    const Examination examination = stubborn.examine({.only = {"cancel"}});
+    const Examination examination = stubborn.examine({.only = {"cancel"}, .cancelLimitSeconds = 0.5});
     EXPECT_EQ(diagnosisOf(examination), (Diagnosis{{"cancel", kFailed}})) << listOf(examination);
     EXPECT_NE(examination.findings[0].sentence.find("went on for"), std::string::npos);
 }

@@ -33,7 +33,7 @@ enum class Fault {
     stateFromPixelToPixel, seedsFromSampleCount, sharedState,
     nanMesh, badIndices, emptyMesh, duplicateMesh, degenerateMeshes, noMeshes, unsteadyMeshes,
     cameraNotUnit, cameraNotOrthogonal, cameraNan, nearBeyondFar, fieldOfViewOutOfRange, cameraFarAway, cameraLooksAway, cameraMirrored, fieldOfViewOfTheWidth,
-    cameraElsewhere, layersChangeImage, layersInfinite, layersOffTheMeshes, probeRandom, probeGarbage,
+    cameraElsewhere, layersChangeImage, layersEmpty, layersInfinite, layersOffTheMeshes, probeRandom, probeGarbage,
     acceptsAnyIntegrator, grunts, ignoresCancel, slowReplay,
 };
 
@@ -248,6 +248,7 @@ class RoomRenderer : public Renderer {
         RenderedImage image;
         image.color = Image(kWidth, kHeight);
         Layers layers{};
+        if (fault_ == Fault::layersEmpty) surface = nullptr;
         if (surface) layers = {&surface->cursor(), surface->find("intersections"), surface->find("pdf")};
         for (std::uint32_t y = 0; y < kHeight; ++y)
             for (std::uint32_t x = 0; x < kWidth; ++x) {

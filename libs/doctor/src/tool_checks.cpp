@@ -22,12 +22,16 @@ void checkField(const SurfaceField& field, Finding& finding) {
     finding.count("invalid", counts.invalid);
     finding.count("coarse", counts.coarse);
     finding.sentence += fmt::format(" {} on {}, {} of them invalid.", counted(counts.points, "point"), counted(field.faceCount(), "face"), counts.invalid);
+    std::size_t empty = 0;
     for (const SurfaceLayerData& layer : field.layers) {
         finding.count("samples " + layer.description.name, layer.samples);
-        if (layer.samples == 0) finding.complain(Outcome::warning, fmt::format("Nothing was added to \"{}\".", layer.description.name), "Add to it where its event happens, or do not offer it (in some scenes the event does not happen: then this is all right).");
+        empty += layer.samples == 0;
+        if (layer.samples == 0) finding.sentence += fmt::format(" Nothing was added to \"{}\".", layer.description.name);  // as its event may not happen in a scene
         if (const std::size_t bad = badValues(layer); bad > 0 || !std::isfinite(layer.total))
             finding.complain(Outcome::failed, fmt::format("\"{}\" has {} that are infinite or NaN.", layer.description.name, counted(bad, "value")), "Look at the values that are added.");
     }
+    finding.count("emptyLayers", empty);
+    if (empty == field.layers.size()) finding.complain(Outcome::warning, "No layer has any value.", "Ask surface.find(name) for each layer's handle, locate() once per point and add() per layer, before renderImageWithLayers returns.");
     const std::uint64_t all = counts.points + counts.invalid;
     if (counts.invalid > 0 && counts.invalid * 100 > all)
         finding.complain(counts.invalid * 2 > all ? Outcome::failed : Outcome::warning, fmt::format("{} of {} points are on no face, or have values that are not finite.", counts.invalid, all),
