@@ -1,7 +1,7 @@
 /// EMCA for renderers in C, and in every language that can call C. docs/c-api.md
 ///
-/// The meaning of everything is that of the C++ interface (docs/recording.md); this one has fixed sizes and places of all
-/// members, so that a renderer and a newer libemca.so fit together. C99 or newer, or C++.
+/// The meaning of everything is that of the C++ interface (docs/recording.md); this one has fixed sizes and places of
+/// all members, so that a renderer and a newer libemca.so fit together. C99 or newer, or C++.
 ///
 ///   emca/c/base.h      version, errors, vectors, seeds
 ///   emca/c/recorder.h  what a renderer calls in its loop
@@ -17,6 +17,8 @@
 ///   for "as usual". Structs that the library hands to a function of the renderer have them filled in.
 /// - Ownership: what a function gets it reads until it returns, unless it says otherwise; what it hands out belongs to
 ///   the library, and the comment says for how long. Nothing is freed by the other side's allocator.
+/// - Threads: any, unless the comment says otherwise. What is one thread's own (recorders, scopes, surface cursors and
+///   points) is passed to no other.
 /// - Text is UTF-8 and ends with a zero byte. Null is the empty text, unless said otherwise.
 /// - Space and units: positions in world space and scene units; radiance linear Rec. 709 RGB, W/(sr m^2); densities per
 ///   steradian, per unit area where a name ends in "_area". (0, 0) is the top-left pixel.
