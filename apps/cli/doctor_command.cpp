@@ -64,7 +64,7 @@ std::string textOf(const doctor::Finding& finding) {
     return text;
 }
 
-Json jsonOf(const doctor::Finding& finding) {
+Json jsonOf(const doctor::Finding& finding, const client::Address& address, const doctor::ExaminationOptions& options, std::uint32_t samples) {
     Json out;
     out["check"] = finding.check;
     out["outcome"] = name(finding.outcome);
@@ -77,6 +77,7 @@ Json jsonOf(const doctor::Finding& finding) {
         Json entry;
         entry["pixel"] = toJson(suspect.pixel);
         entry["why"] = suspect.why;
+        entry["command"] = pixelCommand(address, suspect.pixel, options, samples);
         out["pixels"].push_back(std::move(entry));
     }
     return out;
@@ -84,7 +85,7 @@ Json jsonOf(const doctor::Finding& finding) {
 
 std::size_t counted(const doctor::Examination& examination, doctor::Outcome outcome) { return examination.count(outcome); }
 
-Json jsonOf(const client::Address& address, const doctor::Examination& examination) {
+Json jsonOf(const client::Address& address, const doctor::ExaminationOptions& options, const doctor::Examination& examination) {
     Json out;
     out["address"] = address.text();
     out["renderer"] = examination.info ? Json(examination.info->renderer) : Json(nullptr);
@@ -95,7 +96,7 @@ Json jsonOf(const client::Address& address, const doctor::Examination& examinati
     for (const auto outcome : {doctor::Outcome::ok, doctor::Outcome::skipped, doctor::Outcome::warning, doctor::Outcome::failed})
         out["counts"][name(outcome)] = counted(examination, outcome);
     out["checks"] = Json::array();
-    for (const doctor::Finding& finding : examination.findings) out["checks"].push_back(jsonOf(finding));
+    for (const doctor::Finding& finding : examination.findings) out["checks"].push_back(jsonOf(finding, address, options, examination.samplesPerPixel));
     return out;
 }
 
@@ -155,7 +156,7 @@ int runDoctor(const DoctorArguments& arguments) {
         fmt::print(stderr, "interrupted: the examination was given up\n");
         return Exit::interrupted;
     }
-    if (arguments.json) fmt::print("{}", dump(jsonOf(*address, *examination)));
+    if (arguments.json) fmt::print("{}", dump(jsonOf(*address, *options, *examination)));
     else printEnd(*address, *options, *examination);
     if (examination->lost) return fail(*examination->lost);
     return counted(*examination, doctor::Outcome::failed) > 0 ? Exit::assertionFalse : Exit::ok;

@@ -49,7 +49,9 @@ TEST_F(DoctorCommand, AFailedCheckIsOneAndNamesThePixel) {
     EXPECT_GT(check["figures"]["different"], 0);
     EXPECT_EQ(check["figures"]["largestDeviation"], 0.5);
     ASSERT_EQ(check["pixels"].size(), 5u);
-    EXPECT_EQ(int(check["pixels"][0]["pixel"][0]) % 2, 0);
+    const Json& worst = check["pixels"][0];
+    EXPECT_EQ(int(worst["pixel"][0]) % 2, 0);
+    EXPECT_EQ(worst["command"], "emca pixel " + address() + " " + worst["pixel"][0].dump() + " " + worst["pixel"][1].dump() + " --spp 2");
 }
 
 TEST_F(DoctorCommand, TheSeedChoosesThePixels) {

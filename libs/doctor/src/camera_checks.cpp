@@ -165,7 +165,8 @@ Finding checkCamera(const Camera& camera, const BoundingBox& scene) {
 CameraRays::CameraRays(const Camera& camera, std::uint32_t width, std::uint32_t height) : camera_(camera), width_(width), height_(height) {}
 
 void CameraRays::add(const PathSet& paths) {
-    for (Index path = 0; path < paths.pathCount(); ++path) {
+    constexpr std::size_t kEnough = 200000;
+    for (Index path = 0; path < paths.pathCount() && rays_.size() < kEnough; ++path) {
         const IndexRange vertices = paths.vertices(path);
         for (Index v = vertices.first; v < vertices.last; ++v) {
             const auto position = paths.position(v);

@@ -93,9 +93,8 @@ Result<Examination> examine(const client::Address& address, const ExaminationOpt
             break;
         }
     }
-    if (result.lost || result.interrupted) return result;
-    if (patient.info()) result.info = *patient.info();
-    result.samplesPerPixel = patient.samples();
+    result.info = patient.knownInfo();
+    if (result.info) result.samplesPerPixel = patient.samples();
     result.renderId = patient.renderId();
     return result;
 }

@@ -170,7 +170,7 @@ void Patient::replayAll(Replays& replays) {
         }
         replays.pixels.push_back({pixel, trace->replays.front(), trace->renderSeconds});
         std::uint64_t expected = trace->samplesPerPixel;
-        if (image() && !image()->image.samples.empty()) expected = static_cast<std::uint64_t>(std::max(0.f, *image()->image.samples.at(pixel)));
+        if (image() && image()->image.samples.contains(pixel)) expected = static_cast<std::uint64_t>(std::max(0.f, *image()->image.samples.at(pixel)));
         replays.values.add(trace->paths);
         replays.paths.add(trace->paths, pixel, expected, trace->stats);
         if (replays.surfaces) replays.surfaces->add(trace->paths);

@@ -74,6 +74,8 @@ class Patient {
     const Result<client::Render>& image();   ///< the first render; all others are compared with it
     const Replays& replays();
 
+    /// What is known already, without asking.
+    std::optional<client::ServerInfo> knownInfo() const { return info_ && *info_ ? std::optional(**info_) : std::nullopt; }
     std::uint64_t renderId() const { return image_ && *image_ ? (*image_)->id : 0; }
 
     bool says(std::string_view capability);

@@ -5,6 +5,7 @@
 
 #include "emca/analysis/format.h"
 #include "emca/analysis/surface_name.h"
+#include "emca/core/seed_map.h"
 #include "emca/doctor/path_checks.h"
 #include "triangle_distance.h"
 #include "words.h"
@@ -41,8 +42,10 @@ class SurfaceCheck::Curvature {
   public:
     /// \param size  of the mesh, its diagonal
     Curvature(const Mesh& mesh, double size) : mesh_(mesh), cell_(size > 0 ? 1e-6 * size : 1) {
+        edges_.reserve(3 * mesh.triangles.size());
         for (std::size_t face = 0; face < mesh.triangles.size(); ++face)
-            for (int i = 0; i < 3; ++i) edges_[key(face, i)].push_back(static_cast<std::uint32_t>(face));
+            for (int i = 0; i < 3; ++i) edges_.push_back({key(face, i), static_cast<std::uint32_t>(face)});
+        std::sort(edges_.begin(), edges_.end());
     }
 
     double bulge(std::size_t face) const {
@@ -53,7 +56,7 @@ class SurfaceCheck::Curvature {
             const double edge = length(corners[(i + 1) % 3] - corners[i]);
             const double height = edge > 0 ? length(cross(corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i])) / edge : 0;
             double turn = 0;
-            for (const std::uint32_t other : edges_.at(key(face, i))) {
+            for (const auto& [shared, other] : sharing(face, i)) {
                 const double cosine = std::clamp(std::abs(dot(normal, normalOf(other))), 0.0, 1.0);
                 const double angle = std::acos(cosine);
                 if (angle < std::numbers::pi / 3) turn = std::max(turn, angle);  // beyond: a crease
@@ -71,22 +74,30 @@ class SurfaceCheck::Curvature {
         const double longest = std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
         if (length(cross(c[1] - c[0], c[2] - c[0])) > 1e-5 * longest * longest) return others;
         for (int i = 0; i < 3; ++i)
-            for (const std::uint32_t other : edges_.at(key(face, i)))
+            for (const auto& [edge, other] : sharing(face, i))
                 if (other != face) others.push_back(other);
         return others;
     }
 
     /// Where an edge belongs to one triangle, a disc may reach beyond it.
     double overhang(std::size_t face, int edge) const {
-        if (edge < 0 || edges_.at(key(face, edge)).size() != 1) return 0;
+        if (edge < 0 || sharing(face, edge).size() != 1) return 0;
         const Corners corners = cornersOf(mesh_, face);
         return 0.05 * length(corners[(edge + 1) % 3] - corners[edge]);
     }
 
   private:
-    /// By positions, rounded: meshes often split vertices along seams.
-    using Key = std::array<std::int64_t, 6>;
-    Key key(std::size_t face, int i) const {
+    using Edge = std::pair<std::uint64_t, std::uint32_t>;  ///< its key, a triangle that has it
+    /// The triangles that have an edge of this one, it among them.
+    std::span<const Edge> sharing(std::size_t face, int i) const {
+        const std::uint64_t wanted = key(face, i);
+        const auto first = std::lower_bound(edges_.begin(), edges_.end(), Edge{wanted, 0});
+        auto last = first;
+        while (last != edges_.end() && last->first == wanted) ++last;
+        return {first, last};
+    }
+    /// By positions, rounded: meshes often split vertices along seams. A hash, since large meshes have many edges.
+    std::uint64_t key(std::size_t face, int i) const {
         const Triangle& t = mesh_.triangles[face];
         const auto place = [&](int corner) {
             const Vec3f p = mesh_.positions[t[corner]];
@@ -95,7 +106,9 @@ class SurfaceCheck::Curvature {
         };
         std::array<std::int64_t, 3> a = place(i), b = place((i + 1) % 3);
         if (b < a) std::swap(a, b);
-        return {a[0], a[1], a[2], b[0], b[1], b[2]};
+        std::uint64_t hash = 0;
+        for (const std::int64_t part : {a[0], a[1], a[2], b[0], b[1], b[2]}) hash = mix64(hash ^ static_cast<std::uint64_t>(part)) + 1;
+        return hash;
     }
     Vec3d normalOf(std::size_t face) const {
         const Corners c = cornersOf(mesh_, face);
@@ -103,7 +116,7 @@ class SurfaceCheck::Curvature {
     }
     const Mesh& mesh_;
     const double cell_;
-    std::map<Key, std::vector<std::uint32_t>> edges_;
+    std::vector<Edge> edges_;
 };
 
 SurfaceCheck::SurfaceCheck(const std::vector<Mesh>& meshes) : meshes_(meshes) {
