@@ -36,9 +36,10 @@ struct EmcaPathIntegrator::Walk {
     PathRecorder emca = recorder();
     mts::RayDifferential ray;
     mts::Spectrum estimate{mts::Float(0)}, throughput{mts::Float(1)};
-    mts::Float eta =
-        1;          ///< product of relative indices of refraction: roulette must not see radiance squeezed inside glass
-    int depth = 1;  ///< segments up to here
+    mts::Float survival = 1;  ///< probability of going on from this vertex
+    /// Product of relative indices of refraction: roulette must not see radiance squeezed inside glass.
+    mts::Float eta = 1;
+    int depth = 1;                                  ///< segments up to here
     std::optional<mts::DirectSamplingRecord> from;  ///< the vertex before, for the densities of light sampling there
     mts::Float pdf = 0;                             ///< density with which the last direction was chosen
     bool direct = true;                             ///< the segment comes from the camera
@@ -58,66 +59,61 @@ EmcaPathIntegrator::EmcaPathIntegrator(const mts::Properties& properties)
 mts::Spectrum EmcaPathIntegrator::trace(const mts::RayDifferential& ray, mts::RadianceQueryRecord& query,
                                         const PathContext& context) const {
     Walk walk(ray, query, context);
-    PathRecorder& emca = walk.emca;
-    mts::Intersection& its = query.its;
-    const char* end = "";
+    const char* end = nullptr;
     query.rayIntersect(walk.ray);  // the first segment, which also sets alpha
     for (;; ++walk.depth) {
-        emca.setDepthIndex(walk.depth);
-        if (!its.isValid()) {
-            environment(walk);
-            emca.addPathData("left scene", true);
-            end = "left the scene";
-            break;
-        }
-        const SurfacePlace place =
-            context.shapes && (emca.isRecording() || context.tally) ? context.shapes->place(its) : SurfacePlace{};
-        emca.setIntersectionPos(its.p);
-        if (place) emca.setIntersectionSurface(place.mesh, place.face);
-        emca.addIntersectionData("shape", [&] { return nameOf(*its.shape); });
-        emca.addIntersectionData("throughput", [&] { return walk.seen(walk.throughput); });
-        emca.addIntersectionData("normal", its.shFrame.n);
-        if (context.tally) {
-            context.tally->intersection({place.mesh, place.face, toVec3f(its.p)});
-            context.tally->throughput(toColor(walk.seen(walk.throughput)));
-        }
-
-        emission(walk);
-        subsurface(walk);
-        const mts::BSDF* const bsdf = its.getBSDF(walk.ray);
-        const auto endHere = [&](const char* why) {
-            emca.setIntersectionEvent(its.isEmitter() ? Event::emission : Event::absorb, Lobe::none,
-                                      [&] { return bsdf ? nameOf(*bsdf) : std::string_view(); });
-            end = why;
-        };
-        emca.addIntersectionData("material", [&] { return bsdf ? nameOf(*bsdf) : std::string_view("none"); });
-        if (walk.depth == m_maxDepth || walk.depth == kLargestVertex || !bsdf) {
-            endHere(!bsdf ? "no material" : walk.depth == m_maxDepth ? "maximum depth" : "too many vertices");
-            break;
-        }
-        if (violatesStrictNormals(its, -walk.ray.d, its.wi)) {
-            endHere("shading normal");
-            break;
-        }
-        sampledLight(walk, *bsdf);
-        emca.setIntersectionEstimate([&] { return walk.seen(walk.estimate); });
-        if (!scatter(walk, *bsdf)) {
-            if (context.tally) context.tally->invalidDirection();
-            endHere("absorbed");
-            break;
-        }
-        mts::Float survival = 1;
-        if (!survives(walk, survival)) {
-            if (context.tally) context.tally->rouletteEnd();
-            end = "Russian roulette";
-            break;
-        }
-        walk.scene.rayIntersect(walk.ray, its);
+        walk.emca.setDepthIndex(walk.depth);
+        end = query.its.isValid() ? surface(walk) : environment(walk);
+        if (end) break;
+        walk.scene.rayIntersect(walk.ray, query.its);
     }
-    emca.setIntersectionEstimate([&] { return walk.seen(walk.estimate); });
+    walk.emca.setIntersectionEstimate([&] { return walk.seen(walk.estimate); });
     if (context.tally) context.tally->end(walk.depth);
-    emca.addPathData("end", std::string_view(end));
+    walk.emca.addPathData("end", std::string_view(end));
     return walk.estimate;
+}
+
+const char* EmcaPathIntegrator::surface(Walk& walk) const {
+    mts::Intersection& its = walk.query.its;
+    PathTally* const tally = walk.context.tally;
+    arrive(walk);
+    emission(walk);
+    subsurface(walk);
+    const mts::BSDF* const bsdf = its.getBSDF(walk.ray);
+    walk.emca.addIntersectionData("material", [&] { return bsdf ? nameOf(*bsdf) : std::string_view("none"); });
+    // Stays if nothing is scattered.
+    walk.emca.setIntersectionEvent(its.isEmitter() ? Event::emission : Event::absorb, Lobe::none,
+                                   [&] { return bsdf ? nameOf(*bsdf) : std::string_view(); });
+    if (!bsdf) return "no material";
+    if (walk.depth == m_maxDepth) return "maximum depth";
+    if (walk.depth == kLargestVertex) return "too many vertices";
+    if (violatesStrictNormals(its, -walk.ray.d, its.wi)) return "shading normal";
+    if (!survives(walk)) {
+        if (tally) tally->rouletteEnd();
+        return "Russian roulette";
+    }
+    sampledLight(walk, *bsdf);
+    walk.emca.setIntersectionEstimate([&] { return walk.seen(walk.estimate); });
+    if (!scatter(walk, *bsdf)) {
+        if (tally) tally->invalidDirection();
+        return "absorbed";
+    }
+    return nullptr;
+}
+
+void EmcaPathIntegrator::arrive(Walk& walk) const {
+    const mts::Intersection& its = walk.query.its;
+    PathTally* const tally = walk.context.tally;
+    if (!walk.emca.isRecording() && !tally) return;
+    const SurfacePlace place = walk.context.shapes ? walk.context.shapes->place(its) : SurfacePlace{};
+    walk.emca.setIntersectionPos(its.p);
+    if (place) walk.emca.setIntersectionSurface(place.mesh, place.face);
+    walk.emca.addIntersectionData("shape", [&] { return nameOf(*its.shape); });
+    walk.emca.addIntersectionData("throughput", [&] { return walk.seen(walk.throughput); });
+    walk.emca.addIntersectionData("normal", its.shFrame.n);
+    if (!tally) return;
+    tally->intersection({place.mesh, place.face, toVec3f(its.p)});
+    tally->throughput(toColor(walk.seen(walk.throughput)));
 }
 
 bool EmcaPathIntegrator::violatesStrictNormals(const mts::Intersection& its, const mts::Vector& world,
@@ -139,7 +135,9 @@ void EmcaPathIntegrator::emission(Walk& walk) const {
     addHit(walk, emitted, lightPdf, *its.shape->getEmitter());
 }
 
-void EmcaPathIntegrator::environment(Walk& walk) const {
+const char* EmcaPathIntegrator::environment(Walk& walk) const {
+    constexpr const char* kEnd = "left the scene";
+    walk.emca.addPathData("left scene", true);
     // The viewer draws the hit outside of everything, where the ray is surely on its way out.
     walk.emca.setIntersectionPosEnvmap([&] {
         const mts::BSphere bounds = walk.scene.getBSphere();
@@ -149,14 +147,15 @@ void EmcaPathIntegrator::environment(Walk& walk) const {
     walk.emca.addIntersectionData("throughput", [&] { return walk.seen(walk.throughput); });
     if (walk.context.tally) walk.context.tally->background();
     const mts::Emitter* const light = walk.scene.getEnvironmentEmitter();
-    if (!light || (walk.direct && m_hideEmitters)) return;
+    if (!light || (walk.direct && m_hideEmitters)) return kEnd;
     const mts::Spectrum emitted = walk.scene.evalEnvironment(walk.ray);
     walk.emca.setIntersectionEmission(emitted);
-    if (emitted.isZero()) return;
+    if (emitted.isZero()) return kEnd;
     mts::Float lightPdf = 0;
     if (walk.from && !walk.delta && light->fillDirectSamplingRecord(*walk.from, walk.ray))
         lightPdf = walk.scene.pdfEmitterDirect(*walk.from);
     addHit(walk, emitted, lightPdf, *light);
+    return kEnd;
 }
 
 void EmcaPathIntegrator::addHit(Walk& walk, const mts::Spectrum& emission, mts::Float lightPdf,
@@ -213,7 +212,7 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const mts::BSDF& bsdf) const {
     if (!visible) return;
     const mts::Spectrum reflected = value * radiance * weight;
     walk.add(walk.throughput * reflected, "light sampling", weight, LightEnd::connected);
-    if (walk.context.tally) walk.context.tally->direct(toColor(reflected));
+    if (walk.context.tally) walk.context.tally->direct(toColor(reflected / walk.survival));
 }
 
 bool EmcaPathIntegrator::scatter(Walk& walk, const mts::BSDF& bsdf) const {
@@ -231,7 +230,7 @@ bool EmcaPathIntegrator::scatter(Walk& walk, const mts::BSDF& bsdf) const {
     walk.emca.addIntersectionData("BSDF pdf", walk.pdf);
     walk.emca.addIntersectionData("BSDF weight", weight);
     walk.emca.addIntersectionData("direction", direction);
-    if (walk.context.tally) walk.context.tally->scattered(toColor(weight));
+    if (walk.context.tally) walk.context.tally->scattered(toColor(weight / walk.survival));
     walk.throughput *= weight;
     walk.eta *= sampled.eta;
     walk.delta = (sampled.sampledType & mts::BSDF::EDelta) != 0;
@@ -240,15 +239,15 @@ bool EmcaPathIntegrator::scatter(Walk& walk, const mts::BSDF& bsdf) const {
     return true;
 }
 
-bool EmcaPathIntegrator::survives(Walk& walk, mts::Float& survival) const {
-    if (walk.depth < m_rrDepth) return true;
-    survival = std::min(walk.throughput.max() * walk.eta * walk.eta, kLargestSurvival);
+bool EmcaPathIntegrator::survives(Walk& walk) const {
+    walk.survival = 1;
+    if (walk.depth <= m_rrDepth) return true;
+    walk.survival = std::min(walk.throughput.max() * walk.eta * walk.eta, kLargestSurvival);
     const mts::Float u = walk.query.nextSample1D();
-    walk.emca.addIntersectionData("roulette survival probability", survival);
+    walk.emca.addIntersectionData("roulette survival probability", walk.survival);
     walk.emca.addIntersectionData("random number (roulette)", u);
-    if (u >= survival) return false;
-    walk.throughput /= survival;
-    if (walk.context.tally) walk.context.tally->survived(static_cast<float>(survival));
+    if (u >= walk.survival) return false;
+    walk.throughput /= walk.survival;
     return true;
 }
 

@@ -40,12 +40,16 @@ class EmcaPathIntegrator final : public mts::MonteCarloIntegrator, public Traced
   private:
     struct Walk;
 
+    /// One vertex with all that happens there. \return why the path ends at it; null: it goes on
+    const char* surface(Walk& walk) const;
+    const char* environment(Walk& walk) const;
+    void arrive(Walk& walk) const;
     void emission(Walk& walk) const;
-    void environment(Walk& walk) const;
     void subsurface(Walk& walk) const;
     void sampledLight(Walk& walk, const mts::BSDF& bsdf) const;
     bool scatter(Walk& walk, const mts::BSDF& bsdf) const;
-    bool survives(Walk& walk, mts::Float& survival) const;
+    /// Roulette, once the light met here is counted: its ray is traced already.
+    bool survives(Walk& walk) const;
     void addHit(Walk& walk, const mts::Spectrum& emission, mts::Float lightPdf, const mts::Emitter& emitter) const;
     bool violatesStrictNormals(const mts::Intersection& its, const mts::Vector& world, const mts::Vector& local) const;
 
