@@ -147,6 +147,24 @@ TEST(PublishedMessages, PathsThatLookLikeWhatFollowsAreNotTakenForIt) {
     EXPECT_TRUE(in.ok());
 }
 
+TEST(PublishedMessages, NamesAsLongAsAllowedAreStillRecognised) {
+    const std::string longest(WireLimits().nameBytes, 'x');
+    Writer next;
+    next.id(MessageId::info).text(longest).text(longest);
+    Writer out;
+    out.u32(1);
+    std::vector<std::byte> bytes = out.bytes();
+    bytes.insert(bytes.end(), next.bytes().begin(), next.bytes().end());
+    Bytes source(bytes, ErrorCode::connectionLost, 5000);
+    WireReader in(source);
+    EXPECT_EQ(readPixel(in, next.bytes()).paths.size(), 0u);
+    EXPECT_TRUE(in.nextIs(next.bytes()));
+    EXPECT_EQ(in.integer<std::int16_t>(), MessageId::info);
+    EXPECT_EQ(in.text(WireLimits().nameBytes, "a name"), longest);
+    EXPECT_EQ(in.text(WireLimits().nameBytes, "a name"), longest);
+    EXPECT_TRUE(in.ok());
+}
+
 TEST(PublishedMessages, ScenesAndCamerasArriveAsTheyWereSentAndEveryCutIsAnError) {
     const Show show = exampleShow();
     for (const PublishedScene& scene : {show.scene, *show.heatMap}) {

@@ -30,7 +30,7 @@ struct MessageId {
 
 /// What no reply of a sane server exceeds; beyond, it is refused before memory is taken for it.
 struct WireLimits {
-    std::uint32_t nameBytes = 1u << 20;      ///< of a name, a file's path, a key
+    std::uint32_t nameBytes = 1u << 16;      ///< of a name, a file's path, a key; two of them fit into the reader's buffer
     std::uint32_t textBytes = 1u << 24;      ///< of a text value
     std::uint32_t plugins = 1u << 12;
     std::uint32_t meshes = 1u << 20;
