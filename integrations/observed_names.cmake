@@ -9,6 +9,7 @@
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   function(emca_observed_names names)
     set(includes)
+    list(REMOVE_ITEM ARGN ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES})  # named once more, they hide themselves
     foreach(directory IN LISTS ARGN)
       list(APPEND includes -isystem ${directory})
     endforeach()
