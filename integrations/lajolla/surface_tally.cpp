@@ -2,74 +2,49 @@
 
 namespace emca::lajolla {
 
+namespace {
+
+const LayerDescription kShadowed{"shadowed light samples", LayerKind::mean, "",
+                                 "Part of the shadow tests from here that found something in between."};
+
+}  // namespace
+
 const std::vector<LayerDescription>& surfaceLayers() {
-    static const std::vector<LayerDescription> layers{
-        {"intersection density", LayerKind::density, "1/unit²", "Intersections of all paths with surfaces."},
-        {"next-event density", LayerKind::density, "1/unit²", "Points on lights that light sampling chose, whether or not they are visible."},
-        {"shadowed light samples", LayerKind::mean, "", "Part of the shadow tests from here that found something in between."},
-        {"invalid directions", LayerKind::density, "1/unit²", "Paths whose sampled direction is invalid."},
-        {"path depth", LayerKind::mean, "vertices", "Number of vertices of the paths that come by."},
-        {"throughput", LayerKind::meanColor, "", "Throughput with which camera paths arrive. Only from emcapath."},
-        {"MIS weight", LayerKind::mean, "", "Weight of light sampling at the lit point. Only from emcapath."},
-        {"reflected radiance", LayerKind::meanColor, "W/(sr·unit²)",
-         "Radiance reflected or transmitted back along the path: approximates global illumination. Only from emcapath."},
-        {"image contribution", LayerKind::meanColor, "W/(sr·unit²)",
-         "Reflected radiance times the throughput of the camera path: what the image still gains from here on. Only from emcapath."},
-        {"Russian roulette", LayerKind::density, "1/unit²", "Paths that Russian roulette ends. Only from emcapath."},
-    };
+    static const std::vector<LayerDescription> layers = [] {
+        std::vector<LayerDescription> all = pathLayers();
+        for (const PathLayer said : {PathLayer::throughput, PathLayer::misWeight, PathLayer::reflected, PathLayer::contribution, PathLayer::roulette})
+            all[static_cast<std::size_t>(said)].description += " Only from emcapath.";
+        all.push_back(kShadowed);
+        return all;
+    }();
     return layers;
 }
 
-SurfaceTally::SurfaceTally(const LoadedScene& scene, SurfaceRecorder& recorder) : scene_(scene), cursor_(recorder.cursor()) {
-    SurfaceLayer* const handles[] = {&intersections_, &nextEvents_, &shadowed_,  &invalidDirections_, &pathDepth_,
-                                     &throughput_,    &misWeight_,  &reflected_, &contribution_,      &roulette_};
-    for (std::size_t i = 0; i < surfaceLayers().size(); ++i) *handles[i] = recorder.find(surfaceLayers()[i].name);
-    keep_ = reflected_ || contribution_ || pathDepth_;
-}
+SurfaceTally::SurfaceTally(const LoadedScene& scene, SurfaceRecorder& recorder)
+    : scene_(scene), layers_(recorder), paths_(layers_), shadowed_(recorder.find(kShadowed.name)) {}
 
 void SurfaceTally::intersection(const PathVertex& vertex) {
+    ++vertices_;
     const Shape& shape = scene_.scene().shapes[static_cast<std::size_t>(vertex.shape_id)];
-    const auto mesh = static_cast<std::uint32_t>(vertex.shape_id), face = static_cast<std::uint32_t>(scene_.faceOf(vertex));
+    SurfaceLocation at{vertex.shape_id, scene_.faceOf(vertex), toVec3f(vertex.position)};
     // st of a triangle are the weights of its second and third vertex.
-    here_ = std::holds_alternative<TriangleMesh>(shape)
-                ? cursor_.locate(mesh, face, Vec2f{static_cast<float>(vertex.st.x), static_cast<float>(vertex.st.y)})
-                : cursor_.locate(mesh, face, toVec3f(vertex.position));
-    intersections_.add(here_);
-    if (keep_) vertices_.push_back({here_});
+    if (std::holds_alternative<TriangleMesh>(shape)) at.barycentrics = {static_cast<float>(vertex.st.x), static_cast<float>(vertex.st.y)};
+    paths_.intersection(at);
 }
 
 void SurfaceTally::elsewhere() {
-    here_ = {};
-    if (keep_) vertices_.push_back({});
+    ++vertices_;
+    paths_.background();
 }
 
 void SurfaceTally::nextEvent(const Light& light, const PointAndNormal& point, Real shapeChoice) {
-    if (!nextEvents_) return;
-    if (const auto place = scene_.placeOf(light, point, shapeChoice)) {
-        nextEvents_.add(cursor_.locate(static_cast<std::uint32_t>(place->mesh), static_cast<std::uint32_t>(place->face), toVec3f(point.position)));
-    }
-}
-
-void SurfaceTally::throughput(const Spectrum& throughput) {
-    saysThroughput_ = true;
-    throughput_.add(here_, toColor(throughput));
-    if (keep_) vertices_.back().throughput = toColor(throughput);
+    if (!paths_.wantsNextEvents()) return;
+    if (const auto place = scene_.placeOf(light, point, shapeChoice)) paths_.nextEvent({place->mesh, place->face, toVec3f(point.position)});
 }
 
 void SurfaceTally::end() {
-    Color arriving(0.f);  // at the vertex, from where the path went
-    for (std::size_t i = vertices_.size(); i-- > 0;) {
-        const Vertex& vertex = vertices_[i];
-        pathDepth_.add(vertex.point, static_cast<float>(vertices_.size()));
-        if (!saysThroughput_) continue;
-        const Color reflected = vertex.direct + vertex.factor * arriving;
-        reflected_.add(vertex.point, reflected);
-        contribution_.add(vertex.point, vertex.throughput * reflected);
-        arriving = vertex.hit + reflected;
-    }
-    vertices_.clear();
-    here_ = {};
-    saysThroughput_ = false;
+    paths_.end(vertices_);
+    vertices_ = 0;
 }
 
 }  // namespace emca::lajolla
