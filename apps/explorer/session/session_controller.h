@@ -67,6 +67,10 @@ class SessionController : public QObject {
     /// What was asked of the paths; saved with the next session, and what the last one that was opened held.
     const std::optional<client::SavedFilter>& filter() const { return filter_; }
     void setFilter(const client::SavedFilter& filter) { filter_ = filter == client::SavedFilter() ? std::nullopt : std::optional(filter); }
+    /// How the session that was opened last was looked at; nothing if it does not say.
+    const std::optional<client::SavedView>& view() const { return view_; }
+    /// Asked when a session is saved, about the Dataset as it is then. Its reference is an index into the Dataset's images.
+    void setViewSource(std::function<client::SavedView()> source) { viewSource_ = std::move(source); }
     /// The image that connecting has rendered, so that nobody asked for it; null if none.
     std::shared_ptr<const RenderedImage> automaticImage() const { return automaticImage_.lock(); }
     /// Nothing is under way and nothing is waiting for a connection.
@@ -189,6 +193,8 @@ class SessionController : public QObject {
     std::string notes_;
     std::vector<client::PixelNote> pixelNotes_;
     std::optional<client::SavedFilter> filter_;
+    std::optional<client::SavedView> view_;
+    std::function<client::SavedView()> viewSource_;
     bool showing_ = false;              ///< a session comes: its selection asks for no traces
     client::PixelRegion tracing_;
     std::string regionQuery_;

@@ -100,6 +100,7 @@ void SessionController::showSession(client::Session session) {
     std::erase_if(pixelNotes_, [](const client::PixelNote& note) { return note.text.empty(); });
     std::ranges::stable_sort(pixelNotes_, byRow, &client::PixelNote::pixel);
     filter_ = std::move(session.filter);
+    view_ = std::move(session.view);
     renderCount_ = std::max(renderCount_, static_cast<int>(session.images.size()));
     lastRequest_.clear();
     {
@@ -118,6 +119,7 @@ void SessionController::saveSession(const QString& file) {
     session.notes = notes_;
     session.pixelNotes = pixelNotes_;
     session.filter = filter_;
+    if (viewSource_) session.view = viewSource_();
     // Layers without the scene they lie on cannot be kept: it is still on its way, as they were.
     if (!session.meshes) session.surface = nullptr;
     auto activity = std::make_shared<Activity>();

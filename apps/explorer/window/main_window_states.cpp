@@ -20,6 +20,7 @@
 #include "window/history_view.h"
 #include "window/main_window.h"
 #include "window/plot_links.h"
+#include "window/saved_view.h"
 #include "window/status_strip.h"
 #include "window/toast.h"
 
@@ -65,7 +66,9 @@ void MainWindow::connectSession() {
         connect(plot.widget, &PathPlot::showOnlyWanted, this, showOnly);
     }
     connect(&history_, &EditHistory::changed, this, &MainWindow::updateActions);
+    session_.setViewSource([this] { return savedView(views_, dataset_); });
     connect(&session_, &SessionController::sessionOpened, this, [this] {
+        if (session_.view()) explorer::show(*session_.view(), views_, dataset_);
         if (session_.filter()) views_.filter->setState(*session_.filter());
         history_.clear();
         updateActions();

@@ -15,6 +15,7 @@
 #include "emca/client/session.h"
 #include "emca/imageio/imageio.h"
 #include "image/image_canvas.h"
+#include "image/image_model.h"
 #include "image/image_view.h"
 #include "program/unattended.h"
 #include "scene/scene_view.h"
@@ -326,7 +327,69 @@ TEST_F(SessionFilesTest, NotesOutliveOpeningAndSaving) {
     ASSERT_TRUE(waitFor([&] { return program.window->toast().sentence().startsWith("Saved"); }));
     const auto again = client::openSession(path("notes.emca").toStdString());
     ASSERT_TRUE(again);
+    ASSERT_TRUE(again->session.view);
+    EXPECT_EQ(again->session.view->reference, session.view->reference);
+    EXPECT_EQ(again->session.view->paths, session.view->paths);
+    EXPECT_EQ(again->session.view->vertices, session.view->vertices);
+    for (const auto& option : {client::SavedView::Option{"image/mode", "split"}, {"scene/clipAxis", "2"}})
+        EXPECT_NE(std::ranges::find(again->session.view->options, option), again->session.view->options.end()) << option.name;
+    session.view = again->session.view;
     EXPECT_EQ(client::test::difference(again->session, session), "");
+}
+
+/// What was compared with what, and what the 3D view drew; then the same in another window.
+TEST_F(SessionFilesTest, TheViewIsAsItWasLeft) {
+    const QString file = path("view.emca");
+    SceneOptions left;
+    RaySwitches rays;
+    {
+        Program program(settingsFile());
+        work(program);
+        program.window->action("render")->trigger();
+        ASSERT_TRUE(waitFor([&] { return program.dataset.images().size() == 2 && program.window->isSettled(); }));
+        ImageModel& model = program.window->views().image->model();
+        model.setReference(program.dataset.images()[0].image);
+        model.setMetric(analysis::ImageMetric::relativeSquaredError);
+        model.setMode(ImageMode::difference);
+        SceneView& scene = *program.window->views().scene;
+        left = scene.options();
+        left.orthographic = true;
+        left.clip.axis = ClipAxis::y;
+        left.clip.flip = true;
+        left.colors.quantity = "luminance";
+        left.lightGlyphs = false;
+        left.surfaceOpacity = 0.35f;
+        left.animate = false;
+        scene.setOptions(left);
+        rays.set(*scene.currentPathId(), PathRays{true, false});
+        rays.set(*scene.currentVertexId(), VertexRays{false, true, true});
+        scene.setRaySwitches(rays);
+        save(program, file);
+    }
+    server.reset();
+    Program program(path("fresh.ini"));
+    drop(program, {file});
+    ASSERT_TRUE(opened(program, file));
+    const ImageModel& model = program.window->views().image->model();
+    ASSERT_EQ(program.dataset.images().size(), 2u);
+    EXPECT_EQ(model.reference(), program.dataset.images()[0].image);
+    EXPECT_EQ(model.display().mode, ImageMode::difference);
+    EXPECT_EQ(model.display().metric, analysis::ImageMetric::relativeSquaredError);
+    const SceneView& scene = *program.window->views().scene;
+    SceneOptions expected = left;
+    expected.animate = scene.options().animate;   // a habit of the other person
+    EXPECT_TRUE(scene.options().animate);
+    EXPECT_EQ(scene.options(), expected);
+    EXPECT_EQ(scene.raySwitches(), rays);
+    // Numbers that no version has.
+    client::Session session = client::openSession(file.toStdString())->session;
+    for (auto& option : session.view->options)
+        if (option.name != "image/metric") option.value = "99999";
+    ASSERT_TRUE(client::saveSession(path("strange.emca").toStdString(), session));
+    drop(program, {path("strange.emca")});
+    ASSERT_TRUE(opened(program, path("strange.emca")));
+    EXPECT_EQ(scene.options().clip.axis, left.clip.axis);
+    EXPECT_EQ(scene.options().colors.map, left.colors.map);
 }
 
 TEST_F(SessionFilesTest, TheCommandLineOpensASessionForAPictureAndForTheTour) {

@@ -28,6 +28,8 @@ set(EMCA_WINDOW_SOURCES
   window/plot_links.cpp
   window/plot_links.h
   window/sample_box.h
+  window/saved_view.cpp
+  window/saved_view.h
   window/selection_steps.cpp
   window/selection_steps.h
   window/shortcut_panel.cpp

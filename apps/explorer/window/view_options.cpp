@@ -21,14 +21,13 @@
 namespace emca::explorer {
 namespace {
 
-/// Calls f(name, member) for everything that the 3D view's options hold.
+/// Calls f(name, member) for those of the 3D view's options that say what is seen.
 template <typename Options, typename F>
-void eachOption(Options& o, F f) {
+void eachSight(Options& o, F f) {
     f("surfaceOpacity", o.surfaceOpacity);
     f("backFaces", o.backFaces);
     f("ownColors", o.ownColors);
     f("edges", o.edges);
-    f("fullDetail", o.fullDetail);
     f("clipAxis", o.clip.axis);
     f("clipPosition", o.clip.position);
     f("clipFlip", o.clip.flip);
@@ -45,12 +44,18 @@ void eachOption(Options& o, F f) {
     f("colorLog", o.colors.log);
     f("arrows", o.arrows);
     f("depthLabels", o.depthLabels);
-    f("maximumPaths", o.maximumPaths);
     f("cameraGlyph", o.cameraGlyph);
     f("lightGlyphs", o.lightGlyphs);
     f("axes", o.axes);
     f("legend", o.legend);
     f("orthographic", o.orthographic);
+}
+
+/// For those that serve a person or a machine, whatever is looked at.
+template <typename Options, typename F>
+void eachHabit(Options& o, F f) {
+    f("fullDetail", o.fullDetail);
+    f("maximumPaths", o.maximumPaths);
     f("depthPeeling", o.depthPeeling);
     f("smoothEdges", o.smoothEdges);
     f("flyToSelection", o.flyToSelection);
@@ -64,6 +69,14 @@ QVariant toVariant(T value) {
     else return QVariant::fromValue(value);
 }
 
+/// The last member of an enumeration: files may hold any number.
+template <typename T> constexpr int kLast = -1;
+template <> constexpr int kLast<BackFaces> = int(BackFaces::hide);
+template <> constexpr int kLast<PathChoice> = int(PathChoice::none);
+template <> constexpr int kLast<NextEventChoice> = int(NextEventChoice::allPaths);
+template <> constexpr int kLast<ClipAxis> = int(ClipAxis::view);
+template <> constexpr int kLast<analysis::ColorMapId> = int(analysis::kColorMapCount) - 1;
+
 /// Settings in files come back as texts.
 template <typename T>
 void read(const QVariantMap& from, const QString& name, T& value) {
@@ -74,7 +87,7 @@ void read(const QVariantMap& from, const QString& name, T& value) {
     else if constexpr (std::is_same_v<T, std::string>) value = found->toString().toStdString();
     else if constexpr (std::is_enum_v<T>) {
         const int number = found->toInt(&ok);
-        if (ok && number >= 0 && number <= 8) value = static_cast<T>(number);
+        if (ok && number >= 0 && number <= kLast<T>) value = static_cast<T>(number);
     } else if constexpr (std::is_floating_point_v<T>) {
         const double number = found->toDouble(&ok);
         if (ok && number >= 0 && number < 1e6) value = static_cast<T>(number);
@@ -107,7 +120,9 @@ QVariantMap viewOptions(const Views& views) {
     for (const Views::Plot& plot : views.plots) options[plot.name + "/log"] = plot.widget->isLog();
     options["parallel/axes"] = views.parallel->layoutText();
     SceneOptions scene = views.scene->options();
-    eachOption(scene, [&](const char* name, auto value) { options[QStringLiteral("scene/") + name] = toVariant(value); });
+    const auto keep = [&](const char* name, auto value) { options[QStringLiteral("scene/") + name] = toVariant(value); };
+    eachSight(scene, keep);
+    eachHabit(scene, keep);
     eachPart(views, [&](const QString& name, auto& part) { options[name] = part.saveState(); });
     return options;
 }
@@ -120,11 +135,23 @@ void setViewOptions(const Views& views, const QVariantMap& options) {
     }
     if (const QString axes = options.value("parallel/axes").toString(); !axes.isEmpty()) views.parallel->setLayoutText(axes);
     SceneOptions scene = views.scene->options();
-    eachOption(scene, [&](const char* name, auto& value) { read(options, QStringLiteral("scene/") + name, value); });
+    const auto take = [&](const char* name, auto& value) { read(options, QStringLiteral("scene/") + name, value); };
+    eachSight(scene, take);
+    eachHabit(scene, take);
     views.scene->setOptions(scene);
     eachPart(views, [&](const QString& name, auto& part) {
         if (const QByteArray state = options.value(name).toByteArray(); !state.isEmpty()) part.restoreState(state);
     });
+}
+
+QVariantMap sceneSight(const SceneOptions& options) {
+    QVariantMap sight;
+    eachSight(options, [&](const char* name, const auto& value) { sight[QStringLiteral("scene/") + name] = toVariant(value); });
+    return sight;
+}
+
+void setSceneSight(SceneOptions& options, const QVariantMap& sight) {
+    eachSight(options, [&](const char* name, auto& value) { read(sight, QStringLiteral("scene/") + name, value); });
 }
 
 }  // namespace emca::explorer

@@ -82,11 +82,22 @@ int expectOnlyTrueParts(const Session& found, const Session& original) {
     count(found.selection != Selection::State());
     EXPECT_TRUE(found.notes.empty() || found.notes == original.notes);
     count(!found.notes.empty());
+    EXPECT_TRUE(!found.filter || found.filter == original.filter);
+    count(found.filter.has_value());
+    if (found.view) {
+        SavedView expected = *original.view;
+        // The number of the reference in the file names it, whether or not those before it came; without it there is none.
+        expected.reference.reset();
+        for (std::size_t i = 0; i < found.images.size(); ++i)
+            if (found.images[i].title == original.images[*original.view->reference].title) expected.reference = i;
+        EXPECT_EQ(*found.view, expected);
+    }
+    count(found.view.has_value());
     return parts;
 }
 
-/// Parts of sampleSession(): notes, selection, info, camera, 3 images, 3 traces, scene, surface layers.
-constexpr int kParts = 12;
+/// Parts of sampleSession(): notes, selection, filter, view, info, camera, 3 images, 3 traces, scene, surface layers.
+constexpr int kParts = 14;
 
 /// Of each part that is not there, a notice has the name.
 void expectMissingPartsNamed(const Session& found, const std::string& notices) {
@@ -95,6 +106,8 @@ void expectMissingPartsNamed(const Session& found, const std::string& notices) {
     };
     expectNamed(!found.notes.empty(), "the notes");
     expectNamed(found.selection != Selection::State(), "the selection");
+    expectNamed(found.filter.has_value(), "the filter");
+    expectNamed(found.view.has_value(), "the view");
     expectNamed(found.info.has_value(), "what the renderer said about itself");
     expectNamed(found.camera.has_value(), "the camera");
     expectNamed(found.meshes != nullptr, "the scene");

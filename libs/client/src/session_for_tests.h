@@ -177,6 +177,8 @@ inline Session sampleSession() {
     session.notes = "The caustic under the glass is too bright.\nSee pixel (8, 2).";
     session.pixelNotes = {{{8, 2}, "a firefly: pdf 1e-300"}, {{0, 0}, ""}};
     session.filter = SavedFilter{"luminance > 2 and depth < 9", {{"luminance", 0, 4, "2"}, {"v.`BSDF pdf`", 3, 15, ""}}, true, true};
+    session.view = SavedView{2, {{"image/mode", "split"}, {"scene/clipAxis", "2"}, {"", ""}}, {{other, false, true}},
+                             {{VertexId{path, 1, Subpath::camera}, true, false, true}}};
     return session;
 }
 
@@ -256,6 +258,7 @@ inline std::string difference(const Session& a, const Session& b) {
     }
     if (a.selection != b.selection) return "selection";
     if (a.filter != b.filter) return "filter";
+    if (a.view != b.view) return "view";
     if (a.notes != b.notes || a.pixelNotes != b.pixelNotes) return "notes";
     return "";
 }

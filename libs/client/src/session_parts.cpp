@@ -44,6 +44,9 @@ std::optional<std::uint64_t> bytesOf(const saved::Plane& plane) {
     return std::uint64_t(plane.width) * plane.height * plane.channels.size() * sizeof(float);
 }
 
+PathId id(const saved::PathId& path) { return {path.pixel, path.sample, path.part}; }
+VertexId id(const saved::VertexId& v) { return {id(v.path), v.depth, static_cast<Subpath>(v.subpath)}; }
+
 /// What never came is marked, not black.
 void fillMissingRows(Image& plane, const std::vector<bool>& came, float value) {
     const std::size_t row = std::size_t(plane.width()) * plane.channelCount();
@@ -76,6 +79,7 @@ std::string PartCollector::titleOf(std::size_t planned) const {
         case PartKind::notes: return kNotes;
         case PartKind::selection: return "the selection";
         case PartKind::filter: return "the filter";
+        case PartKind::view: return "the view";
         case PartKind::info: return "what the renderer said about itself";
         case PartKind::camera: return "the camera";
         case PartKind::scene: return "the scene";
@@ -145,6 +149,8 @@ void PartCollector::take(saved::Item item) {
         take(*selection);
     } else if (auto* filter = std::get_if<saved::Filter>(&item)) {
         take(std::move(*filter));
+    } else if (auto* view = std::get_if<saved::View>(&item)) {
+        take(std::move(*view));
     } else if (const auto* image = std::get_if<saved::Image>(&item)) {
         take(*image);
     } else if (const auto* rows = std::get_if<saved::Rows>(&item)) {
@@ -169,15 +175,32 @@ void PartCollector::take(saved::Filter filter) {
     opened_.session.filter = std::move(taken);
 }
 
+void PartCollector::take(saved::View view) {
+    SavedView taken;
+    reference_ = view.reference;
+    for (saved::ViewOption& option : view.options) taken.options.push_back({std::move(option.name), std::move(option.value)});
+    for (const saved::PathRays& rays : view.paths) taken.paths.push_back({id(rays.path), rays.line, rays.nextEvents});
+    for (const saved::VertexRays& rays : view.vertices) taken.vertices.push_back({id(rays.vertex), rays.incoming, rays.outgoing, rays.nextEvents});
+    opened_.session.view = std::move(taken);
+}
+
 void PartCollector::take(const saved::Selection& selection) {
-    const auto id = [](const saved::PathId& path) { return PathId{path.pixel, path.sample, path.part}; };
     Selection::State state;
     state.pixel = selection.pixel;
     state.region = PixelRegion(selection.region);
     for (const saved::PathId& path : selection.paths) state.paths.push_back(id(path));
     if (selection.currentPath) state.currentPath = id(*selection.currentPath);
-    if (const auto& v = selection.vertex) state.vertex = VertexId{id(v->path), v->depth, static_cast<Subpath>(v->subpath)};
+    if (const auto& v = selection.vertex) state.vertex = id(*v);
     opened_.session.selection = std::move(state);
+}
+
+/// Of the image under way among those of the file, from 1, whether or not those before it came.
+std::uint32_t PartCollector::imageNumber() {
+    if (!plan_ || !part_ || *part_ == 0 || *part_ > plan_->parts.size()) return ++imageCount_;
+    const auto until = plan_->parts.begin() + static_cast<std::ptrdiff_t>(*part_);
+    return static_cast<std::uint32_t>(std::count_if(plan_->parts.begin(), until, [](const saved::PlannedPart& part) {
+        return part.kind == static_cast<std::uint8_t>(PartKind::image);
+    }));
 }
 
 void PartCollector::take(const saved::Image& image) {
@@ -190,6 +213,7 @@ void PartCollector::take(const saved::Image& image) {
     if (bytes > bytesLeft_) return fault("it would need " + std::to_string(bytes) + " bytes, more than is accepted here");
     bytesLeft_ -= bytes;
     ImageUnderWay next;
+    next.number = imageNumber();
     next.current = image.current;
     next.entry.title = image.title;
     next.entry.renderId = image.renderId;
@@ -261,6 +285,7 @@ void PartCollector::finishImage(ImageUnderWay& image) {
     fillMissingRows(image.image.variance, image.rows[2], kNan);
     image.entry.image = std::make_shared<const RenderedImage>(std::move(image.image));
     if (image.current) opened_.session.currentImage = opened_.session.images.size();
+    if (image.number == reference_ && reference_ > 0 && opened_.session.view) opened_.session.view->reference = opened_.session.images.size();
     opened_.session.images.push_back(std::move(image.entry));
 }
 

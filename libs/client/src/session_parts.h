@@ -30,6 +30,7 @@ class PartCollector {
         RenderedImage image;
         std::vector<bool> rows[protocol::saved::kPlanes];   ///< which came
         bool current = false;
+        std::uint32_t number = 0;                           ///< among the images of the file, from 1
     };
     struct TraceUnderWay {
         protocol::saved::Trace about;
@@ -46,6 +47,7 @@ class PartCollector {
     void take(protocol::saved::Notes notes);
     void take(const protocol::saved::Selection& selection);
     void take(protocol::saved::Filter filter);
+    void take(protocol::saved::View view);
     void take(const protocol::saved::Image& image);
     void take(const protocol::saved::Rows& rows);
     void take(protocol::TraceResult result);
@@ -60,6 +62,7 @@ class PartCollector {
     void fault(const std::string& clause, bool later = false);
     std::string titleHere(const std::string& otherwise) const;
     std::string titleOf(std::size_t planned) const;
+    std::uint32_t imageNumber();
 
     OpenedSession& opened_;
     std::uint64_t bytesLeft_;                      ///< of announced images
@@ -69,6 +72,8 @@ class PartCollector {
     UnderWay underWay_;
     bool faulty_ = false;                          ///< it has been complained of
     bool sceneIsWhole_ = false;
+    std::uint32_t imageCount_ = 0;                 ///< that came without a plan
+    std::uint32_t reference_ = 0;                  ///< number of the reference image, from 1; 0: none
     std::vector<std::string> missing_;
     std::vector<std::pair<std::uint32_t, std::size_t>> shown_;   ///< place and index of traces
 };

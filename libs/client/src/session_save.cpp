@@ -50,11 +50,15 @@ Result<void> check(const Session& session) {
         if (!trace) return refuse("one of its traces is null");
         if (trace->replays.size() != trace->pixels.size()) return refuse("the trace of " + titleOf(*trace) + " has not one comparison per pixel");
     }
+    if (session.view && session.view->reference && *session.view->reference >= session.images.size()) return refuse("it has no such reference image");
     for (const ImageEntry& entry : session.images) {
         if (!entry.image) return refuse("the image \"" + entry.title + "\" has no pixels");
     }
     return {};
 }
+
+saved::PathId savedId(const PathId& path) { return {path.pixel, path.sample, path.part}; }
+saved::VertexId savedId(const VertexId& v) { return {savedId(v.path), v.depth, static_cast<std::uint8_t>(v.subpath)}; }
 
 /// Writes the parts one after the other. Each is planned with what writes it, so that plan and content cannot differ.
 class Saver {
@@ -87,6 +91,7 @@ class Saver {
         if (!session_.notes.empty() || !session_.pixelNotes.empty()) plan(PartKind::notes, "", [this] { return writeNotes(); });
         if (session_.selection != Selection::State()) plan(PartKind::selection, "", [this] { return writeSelection(); });
         if (session_.filter) plan(PartKind::filter, "", [this] { return writeFilter(); });
+        if (session_.view) plan(PartKind::view, "", [this] { return writeView(); });
     }
     void planRenderersParts() {
         if (session_.info) plan(PartKind::info, "", [this] { return add(messageOf(*session_.info)); });
@@ -123,14 +128,13 @@ class Saver {
     }
 
     Result<void> writeSelection() {
-        const auto id = [](const PathId& path) { return saved::PathId{path.pixel, path.sample, path.part}; };
         const Selection::State& state = session_.selection;
         saved::Selection selection;
         selection.pixel = state.pixel;
         selection.region.assign(state.region.pixels().begin(), state.region.pixels().end());
-        for (const PathId& path : state.paths) selection.paths.push_back(id(path));
-        if (state.currentPath) selection.currentPath = id(*state.currentPath);
-        if (state.vertex) selection.vertex = {id(state.vertex->path), state.vertex->depth, static_cast<std::uint8_t>(state.vertex->subpath)};
+        for (const PathId& path : state.paths) selection.paths.push_back(savedId(path));
+        if (state.currentPath) selection.currentPath = savedId(*state.currentPath);
+        if (state.vertex) selection.vertex = savedId(*state.vertex);
         return add(std::move(selection));
     }
 
@@ -139,6 +143,16 @@ class Saver {
         saved::Filter filter{from.query, {}, from.byHand, from.automatic};
         for (const SavedFilter::Rule& rule : from.rules) filter.rules.push_back({rule.quantity, rule.over, rule.operation, rule.value});
         return add(std::move(filter));
+    }
+
+    Result<void> writeView() {
+        const SavedView& from = *session_.view;
+        saved::View view;
+        if (from.reference) view.reference = static_cast<std::uint32_t>(*from.reference) + 1;
+        for (const SavedView::Option& option : from.options) view.options.push_back({option.name, option.value});
+        for (const SavedView::PathRays& rays : from.paths) view.paths.push_back({savedId(rays.path), rays.line, rays.nextEvents});
+        for (const SavedView::VertexRays& rays : from.vertices) view.vertices.push_back({savedId(rays.vertex), rays.incoming, rays.outgoing, rays.nextEvents});
+        return add(std::move(view));
     }
 
     Result<void> writeImage(std::size_t index) {

@@ -37,7 +37,7 @@ TEST_F(SessionFile, WhatIsComparedIsNoticed) {
 }
 
 TEST_F(SessionFile, EveryPartMayBeAbsent) {
-    for (int part = 0; part < 10; ++part) {
+    for (int part = 0; part < 12; ++part) {
         SCOPED_TRACE(part);
         Session session = sampleSession();
         if (part == 0) session = {};
@@ -45,11 +45,13 @@ TEST_F(SessionFile, EveryPartMayBeAbsent) {
         if (part == 2) session.camera.reset();
         if (part == 3) session.surface = nullptr;
         if (part == 4) session.surface = nullptr, session.meshes = nullptr;
-        if (part == 5) session.images.clear(), session.currentImage = 0;
+        if (part == 5) session.images.clear(), session.currentImage = 0, session.view->reference.reset();
         if (part == 6) session.traces.clear(), session.shown.clear();
         if (part == 7) session.selection = {};
         if (part == 8) session.notes.clear(), session.pixelNotes.clear();
         if (part == 9) session.surface = nullptr, session.meshes = std::make_shared<const std::vector<Mesh>>();
+        if (part == 10) session.filter.reset();
+        if (part == 11) session.view.reset();
         ASSERT_TRUE(saveSession(file(), session).ok());
         const auto opened = openSession(file());
         ASSERT_TRUE(opened.ok()) << opened.error().message;
@@ -57,6 +59,14 @@ TEST_F(SessionFile, EveryPartMayBeAbsent) {
         EXPECT_TRUE(opened->notices.empty());
         EXPECT_EQ(difference(opened->session, session), "");
     }
+}
+
+TEST_F(SessionFile, AReferenceIsOneOfTheImages) {
+    Session session = sampleSession();
+    session.view->reference = session.images.size();
+    const auto saved = saveSession(file(), session);
+    ASSERT_FALSE(saved.ok());
+    EXPECT_EQ(saved.error().code, ErrorCode::invalidArgument);
 }
 
 /// Scene, image and layers beyond the size of one piece, compressed and not.
@@ -119,6 +129,7 @@ TEST_F(SessionFile, ModelsGoToAFileAndBack) {
     back.notes = session.notes;
     back.pixelNotes = session.pixelNotes;
     back.filter = session.filter;  // of the window, as the notes
+    back.view = session.view;
     // A current path that is not among the selected ones is no state of Selection; the sample obeys its rules.
     EXPECT_EQ(difference(back, session), "");
     show(Session(), dataset, selection);
@@ -207,7 +218,8 @@ TEST_F(SessionFile, WhatIsNoSessionIsRefusedWithASentence) {
 TEST_F(SessionFile, TheGoldenFileOpens) {
     const std::filesystem::path golden = EMCA_SOURCE_DIR "/tests/golden/session_v1.emca";
     Session expected = sampleSession();
-    expected.filter.reset();   // filters came later
+    expected.filter.reset();   // these came later
+    expected.view.reset();
     if (std::getenv("EMCA_WRITE_GOLDEN")) {
         ASSERT_TRUE(saveSession(golden, expected, {}, {}, test::kSavedAt, test::kSoftware).ok());
     }

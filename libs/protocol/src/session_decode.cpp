@@ -19,6 +19,10 @@ Error violation(const std::string& what) {
 
 Pixel fromWire(const wire::Pixel& p) { return {p.x(), p.y()}; }
 PathId fromFile(const file::PathId& id) { return {fromWire(id.pixel()), id.sample(), id.part()}; }
+VertexId fromFile(Decoder& d, const file::VertexId& id) {
+    if (id.subpath() > static_cast<std::uint8_t>(Subpath::light)) d.fail("there is no such subpath");
+    return {fromFile(id.path()), id.depth(), id.subpath()};
+}
 
 Head decodeItem(Decoder& d, const file::Head& item) {
     Head head{d.text(item.software()), item.saved(), {}};
@@ -52,10 +56,7 @@ Selection decodeItem(Decoder& d, const file::Selection& item) {
         }
     }
     if (const auto* path = d.aligned<file::PathId>(item.current_path())) selection.currentPath = fromFile(*path);
-    if (const auto* v = d.aligned<file::VertexId>(item.vertex())) {
-        selection.vertex = {fromFile(v->path()), v->depth(), v->subpath()};
-        if (v->subpath() > static_cast<std::uint8_t>(Subpath::light)) d.fail("there is no such subpath");
-    }
+    if (const auto* v = d.aligned<file::VertexId>(item.vertex())) selection.vertex = fromFile(d, *v);
     return selection;
 }
 
@@ -94,6 +95,23 @@ Filter decodeItem(Decoder& d, const file::Filter& item) {
     return filter;
 }
 
+View decodeItem(Decoder& d, const file::View& item) {
+    View view;
+    view.reference = item.reference();
+    if (item.options())
+        for (const file::ViewOption* option : *item.options()) view.options.push_back({d.text(option->name()), d.text(option->value())});
+    if (const auto* list = item.paths(); list && list->size() > 0) {
+        const auto* paths = d.aligned<file::PathRays>(list->Data());
+        for (std::uint32_t i = 0; paths && i < list->size(); ++i) view.paths.push_back({fromFile(paths[i].path()), paths[i].line(), paths[i].next_events()});
+    }
+    if (const auto* list = item.vertices(); list && list->size() > 0) {
+        const auto* vertices = d.aligned<file::VertexRays>(list->Data());
+        for (std::uint32_t i = 0; vertices && i < list->size(); ++i)
+            view.vertices.push_back({fromFile(d, vertices[i].vertex()), vertices[i].incoming(), vertices[i].outgoing(), vertices[i].next_events()});
+    }
+    return view;
+}
+
 template <typename Table>
 bool decodeAs(Decoder& d, const file::Saved& root, Item& item) {
     if (root.item_type() != file::ItemTraits<Table>::enum_value) return false;
@@ -125,7 +143,7 @@ Result<Item> decode(const Frame& frame) {
     if (!root.item()) return violation("it has no content");
     Decoder decoder(frame);
     Item item;
-    const bool known = decodeAny<file::Head, file::Notes, file::Selection, file::Image, file::Rows, file::Trace, file::Filter>(decoder, root, item);
+    const bool known = decodeAny<file::Head, file::Notes, file::Selection, file::Image, file::Rows, file::Trace, file::Filter, file::View>(decoder, root, item);
     if (!known) item = Unknown{static_cast<std::uint8_t>(root.item_type())};
     if (decoder.failed()) return violation(decoder.fault());
     return item;

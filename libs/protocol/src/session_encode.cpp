@@ -14,6 +14,7 @@ using Encoded = std::pair<file::Item, Offset<void>>;
 
 wire::Pixel toWire(Pixel p) { return {p.x, p.y}; }
 file::PathId toFile(const PathId& id) { return {toWire(id.pixel), id.sample, id.part}; }
+file::VertexId toFile(const VertexId& id) { return {toFile(id.path), id.depth, id.subpath}; }
 
 Encoded encodeItem(Builder& b, const Head& item) {
     std::vector<Offset<file::PlannedPart>> parts;
@@ -49,8 +50,7 @@ Encoded encodeItem(Builder& b, const Selection& item) {
     });
     const auto pixel = toWire(item.pixel.value_or(Pixel{}));
     const auto current = toFile(item.currentPath.value_or(PathId{}));
-    const VertexId v = item.vertex.value_or(VertexId{});
-    const file::VertexId vertex(toFile(v.path), v.depth, v.subpath);
+    const auto vertex = toFile(item.vertex.value_or(VertexId{}));
     return {file::Item::Selection, file::CreateSelection(b, item.pixel ? &pixel : nullptr, list, item.currentPath ? &current : nullptr,
                                                          item.vertex ? &vertex : nullptr, region).Union()};
 }
@@ -88,6 +88,23 @@ Encoded encodeItem(Builder& b, const Filter& item) {
     return {file::Item::Filter, file::CreateFilter(b, query, list, item.byHand, item.automatic).Union()};
 }
 
+Encoded encodeItem(Builder& b, const View& item) {
+    std::vector<Offset<file::ViewOption>> options;
+    for (const ViewOption& option : item.options) {
+        const auto name = text(b, option.name), value = text(b, option.value);
+        options.push_back(file::CreateViewOption(b, name, value));
+    }
+    const auto list = options.empty() ? 0 : b.CreateVector(options);
+    const auto paths = item.paths.empty() ? 0 : b.CreateVectorOfStructs<file::PathRays>(item.paths.size(), [&](std::size_t i, file::PathRays* out) {
+        *out = file::PathRays(toFile(item.paths[i].path), item.paths[i].line, item.paths[i].nextEvents);
+    });
+    const auto vertices = item.vertices.empty() ? 0 : b.CreateVectorOfStructs<file::VertexRays>(item.vertices.size(), [&](std::size_t i, file::VertexRays* out) {
+        const VertexRays& rays = item.vertices[i];
+        *out = file::VertexRays(toFile(rays.vertex), rays.incoming, rays.outgoing, rays.nextEvents);
+    });
+    return {file::Item::View, file::CreateView(b, item.reference, list, paths, vertices).Union()};
+}
+
 Encoded encodeItem(Builder&, const Unknown&) { return {file::Item::NONE, 0}; }
 
 // Upper bounds, so that nothing beyond what a frame may have is built.
@@ -105,6 +122,11 @@ std::size_t sizeHint(const Selection& item) { return 1024 + item.paths.size() * 
 std::size_t sizeHint(const Filter& item) {
     std::size_t bytes = 1024 + item.query.size();
     for (const FilterRule& rule : item.rules) bytes += 96 + rule.quantity.size() + rule.value.size();
+    return bytes;
+}
+std::size_t sizeHint(const View& item) {
+    std::size_t bytes = 1024 + item.paths.size() * sizeof(file::PathRays) + item.vertices.size() * sizeof(file::VertexRays);
+    for (const ViewOption& option : item.options) bytes += 64 + option.name.size() + option.value.size();
     return bytes;
 }
 std::size_t sizeHint(const Rows& item) { return 1024 + item.values.size() * sizeof(float); }

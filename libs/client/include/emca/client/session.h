@@ -38,6 +38,29 @@ struct SavedFilter {
     friend bool operator==(const SavedFilter&, const SavedFilter&) = default;
 };
 
+/// How a session was looked at: what was compared with what, and what was drawn.
+struct SavedView {
+    struct Option {
+        std::string name, value;   ///< of the program that looked ("scene/clipAxis" "2"); others leave it alone
+        friend bool operator==(const Option&, const Option&) = default;
+    };
+    struct PathRays {
+        PathId path;
+        bool line = true, nextEvents = true;
+        friend bool operator==(const PathRays&, const PathRays&) = default;
+    };
+    struct VertexRays {
+        VertexId vertex;
+        bool incoming = true, outgoing = true, nextEvents = true;
+        friend bool operator==(const VertexRays&, const VertexRays&) = default;
+    };
+    std::optional<std::size_t> reference;   ///< index into the session's images
+    std::vector<Option> options;
+    std::vector<PathRays> paths;            ///< those that are drawn otherwise than the options say
+    std::vector<VertexRays> vertices;
+    friend bool operator==(const SavedView&, const SavedView&) = default;
+};
+
 /// A value: copies share images, scene and columns, which never change. Every part may be absent.
 struct Session {
     std::optional<ServerInfo> info;
@@ -52,6 +75,7 @@ struct Session {
     std::string notes;                                     ///< about the whole session, in UTF-8
     std::vector<PixelNote> pixelNotes;
     std::optional<SavedFilter> filter;                     ///< nothing: none was asked for
+    std::optional<SavedView> view;                         ///< nothing: as a program likes
 };
 
 /// What the models hold, without notes. Costs no copy, except of an image that is still rendering (others write to it):

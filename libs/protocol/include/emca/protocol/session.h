@@ -17,7 +17,7 @@
 namespace emca::protocol::saved {
 
 enum class PartKind : std::uint8_t {
-    notes = 1, selection = 2, info = 3, camera = 4, image = 5, trace = 6, scene = 7, surface = 8, filter = 9,
+    notes = 1, selection = 2, info = 3, camera = 4, image = 5, trace = 6, scene = 7, surface = 8, filter = 9, view = 10,
 };
 
 /// Something that was saved, announced at the begin of the file, so that a file that was cut can say what is missing.
@@ -97,10 +97,28 @@ struct Filter {
     bool automatic = false;                          ///< applied to each new pixel
 };
 
+/// How the session was looked at.
+struct ViewOption { std::string name, value; };
+/// What is drawn of single paths and vertices.
+struct PathRays {
+    PathId path;
+    bool line = true, nextEvents = true;
+};
+struct VertexRays {
+    VertexId vertex;
+    bool incoming = true, outgoing = true, nextEvents = true;
+};
+struct View {
+    std::uint32_t reference = 0;                     ///< number of an image of the file, from 1; 0: none
+    std::vector<ViewOption> options;
+    std::vector<PathRays> paths;
+    std::vector<VertexRays> vertices;
+};
+
 /// Of a kind that only later versions know. Cannot be saved.
 struct Unknown { std::uint8_t kind = 0; };
 
-using Item = std::variant<Head, Notes, Selection, Image, Rows, Trace, Filter, Unknown>;
+using Item = std::variant<Head, Notes, Selection, Image, Rows, Trace, Filter, View, Unknown>;
 
 /// Errors: tooLarge, invalidArgument (Unknown).
 Result<Frame> encode(const Item& item);
