@@ -77,14 +77,20 @@ struct WrappedCalls {
     }
 };
 
-Hit wrapIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) {
-    if (watch == nullptr) [[likely]] return realIntersect(self, ray, tMax);
+// Apart from what nobody watches, which is to be a test and a jump: it comes for every shape that a ray may hit.
+[[gnu::noinline]] static Hit watchedIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) {
     return WrappedCalls::intersect(*watch, *self, ray, tMax);
+}
+[[gnu::noinline]] static bool watchedIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) {
+    return WrappedCalls::intersectP(*watch, *self, ray, tMax);
+}
+
+Hit wrapIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) {
+    return watch == nullptr ? realIntersect(self, ray, tMax) : watchedIntersect(self, ray, tMax);
 }
 
 bool wrapIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) {
-    if (watch == nullptr) [[likely]] return realIntersectP(self, ray, tMax);
-    return WrappedCalls::intersectP(*watch, *self, ray, tMax);
+    return watch == nullptr ? realIntersectP(self, ray, tMax) : watchedIntersectP(self, ray, tMax);
 }
 
 pbrt::BSDF wrapGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray, pbrt::SampledWavelengths& lambda,

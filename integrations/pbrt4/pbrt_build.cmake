@@ -55,7 +55,7 @@ function(emca_pbrt4_read_build prefix build)
   set(${prefix}_link "${link}" PARENT_SCOPE)
 endfunction()
 
-# Mangled name of the one function of the library whose name begins so; they differ by compiler and by pbrt's Float.
+# Mangled name of the one function of the library whose name begins so; they differ by standard library.
 function(emca_pbrt4_symbol out library pattern)
   execute_process(COMMAND ${CMAKE_NM} --defined-only ${library} OUTPUT_VARIABLE symbols ERROR_QUIET)
   string(REGEX MATCH " [TW] (${pattern})\n" found "${symbols}")
@@ -88,6 +88,9 @@ macro(emca_pbrt4_import)
   if(NOT pbrt4_compile OR NOT pbrt4_link)
     message(FATAL_ERROR "${EMCA_PBRT4_BUILD} does not tell how pbrt was built (neither build.ninja nor Makefiles with its "
       "target pbrt_exe). Say so yourself: -DEMCA_PBRT4_COMPILE=\"-DPBRT_IS_LINUX ... -O3\" -DEMCA_PBRT4_LINK=\"libpbrt_lib.a ...\".")
+  endif()
+  if(pbrt4_compile MATCHES "-DPBRT_FLOAT_AS_DOUBLE")
+    message(FATAL_ERROR "${EMCA_PBRT4_BUILD} was built with PBRT_FLOAT_AS_DOUBLE: integrations/pbrt4 takes pbrt in single precision.")
   endif()
 
   add_library(emca_pbrt4_library INTERFACE)
