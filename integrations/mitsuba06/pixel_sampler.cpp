@@ -15,7 +15,6 @@ PixelSampler::PixelSampler(SamplingTask task, mts::ref<mts::Sampler> sampler, Su
     : task_(std::move(task)),
       sampler_(sampler),
       sensor_(*task_.scene->getSensor()),
-      cropOffset_(sensor_.getFilm()->getCropOffset()),
       width_(static_cast<std::uint32_t>(sensor_.getFilm()->getCropSize().x)),
       differentialScale_(1 / std::sqrt(static_cast<mts::Float>(sampler->getSampleCount()))),
       query_(task_.scene, sampler_.get()) {
@@ -31,7 +30,8 @@ mts::Float* PixelSampler::filmPixel() {
 }
 
 void PixelSampler::beginPixel(Pixel pixel) {
-    at_ = mts::Point2i(static_cast<int>(pixel.x), static_cast<int>(pixel.y)) + mts::Vector2i(cropOffset_);
+    // Film coordinates begin at the crop window's corner; sensors add its place in the whole image.
+    at_ = mts::Point2i(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     block_->setOffset(at_);
     block_->clear();
     if (task_.film) std::ranges::copy((*task_.film)[place(pixel)], filmPixel());

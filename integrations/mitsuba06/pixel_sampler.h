@@ -48,7 +48,7 @@ class PixelSampler final : public adapter::PixelWorker {
     std::optional<PathTally> tally_;
     const mts::Sensor& sensor_;
     mts::ref<mts::ImageBlock> block_;  ///< one pixel and the film's border
-    mts::Point2i cropOffset_, at_;
+    mts::Point2i at_;
     std::uint32_t width_;
     mts::Float differentialScale_;
     int queryType_;

@@ -16,8 +16,7 @@ Camera byRays(const mts::Sensor& sensor) {
     const mts::Film& film = *sensor.getFilm();
     const auto rayAt = [&](double x, double y) {
         mts::Ray ray;
-        const mts::Point2 at(mts::Float(film.getCropOffset().x + x * film.getCropSize().x),
-                             mts::Float(film.getCropOffset().y + y * film.getCropSize().y));
+        const mts::Point2 at(mts::Float(x * film.getCropSize().x), mts::Float(y * film.getCropSize().y));
         sensor.sampleRay(ray, at, mts::Point2(mts::Float(0.5), mts::Float(0.5)), 0);
         return ray;
     };
