@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/qt_compat.h"
+#include "base/seen_on.h"
 #include "base/theme.h"
 #include "emca/analysis/statistics.h"
 
@@ -39,7 +40,7 @@ void paintColorBar(QPainter& painter, const QRectF& rect, const ColorBarContent&
     const auto entries = analysis::ColorMap::get(content.map).entries();
     QImage strip(1, 256, QImage::Format_RGB32);
     for (int i = 0; i < 256; ++i) {
-        const auto e = entries[static_cast<std::size_t>(255 - i)];
+        const auto entry = entries[static_cast<std::size_t>(255 - i)], e = content.ground.isValid() ? seenOn(entry, content.ground) : entry;
         strip.setPixel(0, i, qRgb(e.r, e.g, e.b));
     }
     painter.drawImage(box, strip);
@@ -54,7 +55,8 @@ void paintColorBar(QPainter& painter, const QRectF& rect, const ColorBarContent&
     painter.drawText(QRectF(rect.x() + Spacing::tiny, rect.y() + 4, rect.width() - 2, 18), Qt::AlignLeft | Qt::AlignVCenter,
                      content.label);
     painter.setFont(theme.smallNumberFont());
-    for (const analysis::Tick& tick : analysis::ticks(range, std::max(2, static_cast<int>(box.height() / kTickRoom)))) {
+    const int room = std::max(2, static_cast<int>(box.height() / kTickRoom));
+    for (const analysis::Tick& tick : content.integral && !range.log ? analysis::integerTicks(range, room) : analysis::ticks(range, room)) {
         const double y = box.bottom() - range.position(tick.value) * box.height();
         painter.setPen(c.mutedText);
         painter.drawLine(QPointF(box.right() + 1, y), QPointF(box.right() + (tick.major ? 5 : 3), y));

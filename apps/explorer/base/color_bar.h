@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QColor>
 #include <QWidget>
 
 #include <limits>
@@ -18,6 +19,8 @@ struct ColorBarContent {
     QString label;                     ///< above the bar; room for a word
     QString title;                     ///< along the bar, turned by 90 degrees: name and unit
     double pointer = std::numeric_limits<double>::quiet_NaN();   ///< a value to point at; NaN for none
+    bool integral = false;             ///< whole numbers: no tick between them
+    QColor ground = {};                ///< of what is coloured: its colours are those of seenOn(); invalid: those of the map
 };
 /// An upright bar with ticks at round numbers. The ground is the caller's.
 void paintColorBar(QPainter& painter, const QRectF& rect, const ColorBarContent& content, const Theme& theme);

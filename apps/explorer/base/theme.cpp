@@ -123,7 +123,7 @@ ThemeColors lightColors() {
     c.border = "#d3d6db";
     c.grid = "#e9ebee";
     c.sceneTop = "#fbfbfc";
-    c.sceneBottom = "#e2e5ea";
+    c.sceneBottom = "#eceef2";
     c.mesh = "#bdb8b0";
     c.meshBack = "#9aa6b8";
     c.text = "#1f2328";
@@ -136,10 +136,10 @@ ThemeColors lightColors() {
     c.success = "#1f7a45";
     c.path = "#3a3d42";
     c.currentSegment = "#0b8f4d";
-    c.emitter = "#dcae00";
+    c.emitter = "#b29500";
     c.nextEventVisible = "#1f6fe0";
     c.nextEventOccluded = "#cf2a2a";
-    c.selected = "#d95700";
+    c.selected = "#b25300";
     c.hover = "#7a5cff";
     c.halo = "#ffffff";
     c.axisX = "#98152a";

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/seen_on.h"
 #include "base/style_sheet.h"
 
 namespace emca::explorer {
@@ -81,6 +82,30 @@ void expectApart(const std::vector<Role>& roles, double least) {
                 if (roles[i].shape != roles[j].shape) continue;
                 EXPECT_GE(difference(labOf(roles[i].color, kVision[vision]), labOf(roles[j].color, kVision[vision])), least)
                     << roles[i].name << " and " << roles[j].name << ", vision " << vision;
+            }
+}
+
+TEST(Theme, PathsAreSeenOnTheScenesGround) {
+    for (const ThemeColors& c : {darkColors(), lightColors()})
+        for (const QColor& ground : {c.sceneTop, c.sceneBottom, c.ground})
+            for (const Role& role : {Role{"path", c.path}, Role{"current segment", c.currentSegment}, Role{"emitter", c.emitter}, Role{"visible", c.nextEventVisible},
+                                     Role{"occluded", c.nextEventOccluded}, Role{"selected", c.selected}, Role{"hover", c.hover}})
+                EXPECT_GE(contrast(role.color, ground), 2.5) << role.name << " on " << ground.name().toStdString();
+}
+
+TEST(Theme, ColoursOfMapsAreMadeToBeSeenAndKeepTheirHue) {
+    for (const ThemeColors& c : {darkColors(), lightColors()})
+        for (std::size_t id = 0; id < analysis::kColorMapCount; ++id)
+            for (const analysis::Color8 entry : analysis::ColorMap::get(static_cast<analysis::ColorMapId>(id)).entries()) {
+                const analysis::Color8 seen = seenOn(entry, c.sceneBottom);
+                const QColor before(entry.r, entry.g, entry.b), after(seen.r, seen.g, seen.b);
+                EXPECT_GE(contrast(after, c.sceneBottom), 2.1) << before.name().toStdString();
+                if (contrast(before, c.sceneBottom) >= 2.2) {
+                    EXPECT_EQ(after, before) << "what is seen already stays";
+                } else if (before.hslSaturation() > 60 && after.hslSaturation() > 60) {
+                    const int apart = std::abs(before.hslHue() - after.hslHue());
+                    EXPECT_LE(std::min(apart, 360 - apart), 20) << before.name().toStdString() << " became " << after.name().toStdString();
+                }
             }
 }
 

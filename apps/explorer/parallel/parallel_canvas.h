@@ -88,7 +88,7 @@ class ParallelCanvas : public QWidget {
     void paintChips(QPainter& painter, std::size_t i) const;
     void paintBrushes(QPainter& painter, std::size_t i) const;
     void paintHovered(QPainter& painter) const;
-    void paintBubble(QPainter& painter) const;
+    void paintHoveredDots(QPainter& painter) const;
     void label(QPainter& painter, QPointF at, const QString& text, const QColor& color) const;
     // parallel_mouse.cpp
     struct BrushHit {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/bubble.h"
 #include "base/qt_compat.h"
 #include "base/theme.h"
 #include "emca/analysis/format.h"
@@ -31,6 +32,7 @@ void ParallelCanvas::paintEvent(QPaintEvent*) {
     if (axes_.size() == 0) return;
     painter.setRenderHint(QPainter::Antialiasing);
     paintLines(painter);
+    if (!exporting_) paintHovered(painter);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (drag_ == Drag::axis && i == dragAxis_) continue;
         paintAxis(painter, i, frame_.x(i));
@@ -45,8 +47,8 @@ void ParallelCanvas::paintEvent(QPaintEvent*) {
         painter.drawLine(QPointF(x, ParallelFrame::kHeader), QPointF(x, frame_.end()));
     }
     if (exporting_) return;
-    paintHovered(painter);
-    if (!bubble_.isEmpty()) paintBubble(painter);
+    paintHoveredDots(painter);
+    if (!bubble_.isEmpty()) paintBubble(painter, theme_, bubble_, mouse_, 16, size());
 }
 
 void ParallelCanvas::paintLines(QPainter& painter) {
@@ -99,12 +101,12 @@ void ParallelCanvas::paintAxis(QPainter& painter, std::size_t i, double x) const
 }
 
 void ParallelCanvas::label(QPainter& painter, QPointF at, const QString& text, const QColor& color) const {
-    // Lines pass below: the ground shines through just enough to read the text.
+    // Lines end at the label and go on behind it, the selected one, too.
     const QFontMetricsF metrics(theme_.smallNumberFont());
     const double width = metrics.horizontalAdvance(text);
     const QRectF box(at.x() - width, at.y() - metrics.height() / 2, width, metrics.height());
     painter.setPen(Qt::NoPen);
-    painter.setBrush(withAlpha(theme_.colors().ground, 0.72));
+    painter.setBrush(withAlpha(theme_.colors().ground, 0.94));
     painter.drawRoundedRect(box.adjusted(-3, 0, 2, 0), 3, 3);
     painter.setFont(theme_.smallNumberFont());
     painter.setPen(color);
@@ -243,26 +245,15 @@ void ParallelCanvas::paintHovered(QPainter& painter) const {
     const Index path = *hovered_;
     drawLines(painter, lines_, {&path, 1}, withAlpha(c.halo, 0.9), 4.5);
     drawLines(painter, lines_, {&path, 1}, c.hover, 1.75);
+}
+
+void ParallelCanvas::paintHoveredDots(QPainter& painter) const {
+    if (!hovered_ || *hovered_ >= lines_.lines()) return;
+    const ThemeColors& c = theme_.colors();
+    const Index path = *hovered_;
     painter.setPen(QPen(c.halo, 1));
     painter.setBrush(c.hover);
     for (std::size_t i = 0; i < lines_.xs.size(); ++i) painter.drawEllipse(QPointF(lines_.xs[i], double(lines_.ys[i][path])), 3, 3);
-}
-
-void ParallelCanvas::paintBubble(QPainter& painter) const {
-    const ThemeColors& c = theme_.colors();
-    const QFont font = theme_.smallNumberFont();
-    const QRectF text = QFontMetricsF(font).boundingRect(QRectF(0, 0, 460, 400), Qt::AlignLeft, bubble_);
-    QRectF box(0, 0, text.width() + 18, text.height() + 10);
-    box.moveTopLeft(mouse_ + QPointF(14, 12));
-    if (box.right() > width() - 2) box.moveRight(mouse_.x() - 12);
-    box.moveLeft(std::max(2.0, box.left()));
-    box.moveTop(std::clamp(box.top(), 2.0, std::max(2.0, height() - box.height() - 2)));
-    painter.setPen(QPen(c.border, 1));
-    painter.setBrush(c.raised);
-    painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), Spacing::radius, Spacing::radius);
-    painter.setFont(font);
-    painter.setPen(c.text);
-    painter.drawText(box.adjusted(9, 5, -9, -5), Qt::AlignLeft | Qt::AlignVCenter, bubble_);
 }
 
 }  // namespace emca::explorer

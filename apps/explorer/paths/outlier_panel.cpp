@@ -121,7 +121,6 @@ void OutlierPanel::build() {
     auto* switches = new QHBoxLayout;
     switches->setSpacing(Spacing::large);
     switches->addWidget(upperOnly_);
-    switches->addWidget(perPixel_);
     switches->addWidget(automatic_);
     switches->addStretch(1);
     auto* bottom = new QHBoxLayout;
@@ -133,6 +132,7 @@ void OutlierPanel::build() {
     layout->addLayout(top);
     layout->addLayout(parameters);
     layout->addLayout(switches);
+    layout->addWidget(perPixel_);   // a line of its own: three would make the panel wider
     layout->addWidget(table_, 1);
     layout->addLayout(bottom);
     showParameters();

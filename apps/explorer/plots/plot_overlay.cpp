@@ -1,9 +1,9 @@
 #include "plots/plot_overlay.h"
 
 #include <QPainter>
-#include <algorithm>
 #include <cmath>
 
+#include "base/bubble.h"
 #include "base/theme.h"
 #include "plots/edge_marks.h"
 #include "plots/points_item.h"
@@ -99,7 +99,7 @@ void PlotOverlay::paintEvent(QPaintEvent*) {
         painter.drawEllipse(*position_, radius_, radius_);
         painter.setPen(QPen(c.hover, 1.75));
         painter.drawEllipse(*position_, radius_, radius_);
-        if (!text_.isEmpty()) paintBubble(painter);
+        if (!text_.isEmpty()) paintBubble(painter, theme_, text_, *position_, radius_ + 8, size());
     }
     if (rectangle_) {
         QColor fill = c.selected;
@@ -109,23 +109,6 @@ void PlotOverlay::paintEvent(QPaintEvent*) {
         painter.setBrush(fill);
         painter.drawRect(*rectangle_);
     }
-}
-
-void PlotOverlay::paintBubble(QPainter& painter) const {
-    const ThemeColors& c = theme_.colors();
-    const QFont font = theme_.smallNumberFont();
-    const QRectF text = QFontMetricsF(font).boundingRect(QRectF(0, 0, 400, 200), Qt::AlignLeft, text_);
-    QRectF box(0, 0, text.width() + 16, text.height() + 10);
-    const double gap = radius_ + 8;
-    box.moveTopLeft(QPointF(position_->x() + gap, position_->y() - box.height() / 2));
-    if (box.right() > width() - 2) box.moveRight(position_->x() - gap);
-    box.moveTop(std::clamp(box.top(), 2.0, std::max(2.0, height() - box.height() - 2)));
-    painter.setPen(QPen(c.border, 1));
-    painter.setBrush(c.raised);
-    painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), Spacing::radius, Spacing::radius);
-    painter.setFont(font);
-    painter.setPen(c.text);
-    painter.drawText(box.adjusted(8, 5, -8, -5), Qt::AlignLeft | Qt::AlignVCenter, text_);
 }
 
 }  // namespace emca::explorer

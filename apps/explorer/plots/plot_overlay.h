@@ -30,7 +30,6 @@ class PlotOverlay : public QWidget {
     void paintEvent(QPaintEvent* event) override;
 
   private:
-    void paintBubble(QPainter& painter) const;
     void paintSelected(QPainter& painter) const;
     void paintCurrent(QPainter& painter) const;
     /// The edge row that a point is in, across the whole canvas; else the room of a dot with its ring.

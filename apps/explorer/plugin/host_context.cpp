@@ -45,6 +45,13 @@ void HostContext::close() {
     around_.services.removeObjects(owner_);
 }
 
+bool HostContext::isWorking() const {
+    return std::any_of(tasks_.begin(), tasks_.end(), [](const std::weak_ptr<TaskState>& weak) {
+        const auto task = weak.lock();
+        return task && !task->ended && !task->cancelled;
+    });
+}
+
 bool HostContext::waitForWork(int milliseconds) {
     pool_->clear();
     return pool_->waitForDone(milliseconds);
@@ -119,10 +126,16 @@ void HostContext::post(const std::shared_ptr<QObject>& mailbox, Call callee) {
     QMetaObject::invokeMethod(mailbox.get(), [mailbox, callee = std::move(callee)]() mutable { callee(); }, Qt::QueuedConnection);
 }
 
-Task HostContext::ask(const std::string& tool, std::vector<std::byte> request, AskOptions options,
-                      std::function<void(Result<Bytes>)> answered) {
+std::shared_ptr<TaskState> HostContext::newTask() {
+    std::erase_if(tasks_, [](const auto& task) { return task.expired(); });
     auto state = std::make_shared<TaskState>();
     tasks_.push_back(state);
+    return state;
+}
+
+Task HostContext::ask(const std::string& tool, std::vector<std::byte> request, AskOptions options,
+                      std::function<void(Result<Bytes>)> answered) {
+    auto state = newTask();
     const auto finish = [this, open = open_, state, answered = std::move(answered)](Result<Bytes> reply) {
         if (!*open || state->ended || state->cancelled) return;
         state->ended = true;
@@ -157,9 +170,7 @@ Task HostContext::ask(const std::string& tool, std::vector<std::byte> request, A
 
 Task HostContext::start(std::function<std::shared_ptr<void>(const TaskState&)> work,
                         std::function<void(const std::shared_ptr<void>&, const Error&)> done) {
-    auto state = std::make_shared<TaskState>();
-    tasks_.erase(std::remove_if(tasks_.begin(), tasks_.end(), [](const auto& task) { return task.expired(); }), tasks_.end());
-    tasks_.push_back(state);
+    auto state = newTask();
     const auto finish = [this, open = open_, state, done = std::move(done)](const std::shared_ptr<void>& result, const Error& error) {
         if (!*open || state->ended || state->cancelled) return;
         state->ended = true;

@@ -30,6 +30,8 @@ class HostContext : public QObject, public PluginContext {
     HostContext(const Surroundings& around, const QString& id, PluginGuard::Slot slot, PluginView& view);
     ~HostContext() override;
 
+    /// A question or work that it waits for.
+    bool isWorking() const;
     /// Ends callbacks, tasks and objects. What the plugin still calls has no effect.
     void close();
     /// Waits for work in other threads. \return false if it does not end: then its threads are left alone, for good
@@ -106,6 +108,7 @@ class HostContext : public QObject, public PluginContext {
     std::shared_ptr<bool> open_ = std::make_shared<bool>(true);
     std::shared_ptr<QObject> mailbox_;       ///< where threads send their results
     std::shared_ptr<QThreadPool> pool_;
+    std::shared_ptr<TaskState> newTask();
     std::vector<std::weak_ptr<TaskState>> tasks_;
     std::map<int, std::function<void()>> lookListeners_, settingListeners_;
     int nextListener_ = 0;

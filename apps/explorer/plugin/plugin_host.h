@@ -21,6 +21,8 @@ class PluginHost : public QObject {
     /// The place; whoever puts it into a window may delete it. Null after that.
     PluginView* view() const { return view_; }
     bool isRunning() const { return context_ != nullptr && reason_.isEmpty(); }
+    /// It waits for an answer or for work of its own.
+    bool isWorking() const { return isRunning() && context_->isWorking(); }
     /// Why it does not run; empty while it does.
     const QString& reason() const { return reason_; }
 

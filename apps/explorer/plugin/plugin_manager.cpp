@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
+#include <algorithm>
 
 #include "base/qt_compat.h"
 
@@ -176,6 +177,10 @@ void PluginManager::tryAgain(const QString& file) {
         probeNext();
     }
     emit changed();
+}
+
+bool PluginManager::isWorking() const {
+    return std::ranges::any_of(records_, [](const auto& record) { return record->host && record->host->isWorking(); });
 }
 
 bool PluginManager::end(int milliseconds) {

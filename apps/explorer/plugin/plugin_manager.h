@@ -52,6 +52,8 @@ class PluginManager : public QObject {
     const QStringList& folders() const { return options_.folders; }
     /// Nothing is being tried.
     bool isSettled() const { return probing_ == 0 && waiting_.empty(); }
+    /// A plugin waits for an answer, or for work of its own.
+    bool isWorking() const;
 
     /// Ends all plugins. \return false if some work of theirs does not end: then leave the process by std::_Exit
     bool end(int milliseconds = 2000);

@@ -24,6 +24,7 @@ set(EMCA_PLUGIN_SOURCES
   plugin/probe_steps.h
 )
 set(EMCA_PLUGIN_TESTS
+  plugin/plugin_for_tests.h
   plugin/plugin_test.cpp
 )
 set(EMCA_PLUGIN_GL_TESTS

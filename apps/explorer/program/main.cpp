@@ -74,6 +74,8 @@ int main(int argc, char** argv) {
     QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
     QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
 #endif
-    GuardedApplication application(argc, argv);
+    // Of our options some are called as Qt's own (--plugin, --style): all have been read.
+    int own = 1;
+    GuardedApplication application(own, argv);
     return run(application, *options);
 }

@@ -32,6 +32,7 @@ namespace emca::explorer {
 namespace {
 
 constexpr int kTickMilliseconds = 40;
+constexpr int kPluginMilliseconds = 60000;   // a light probe of many samples takes its time
 constexpr int kSettledTicks = 4;   // drawn things may start others: a flight of the camera, a late layout
 
 int codeOf(FailedTask task) {
@@ -154,8 +155,17 @@ void Unattended::screenshot() {
     }
 }
 
+/// Plugins are waited for, too, but not for ever: one that never has enough must not keep a script.
+bool Unattended::isSettled() {
+    if (!window_.isSettled() || !window_.isPluginWorking()) {
+        pluginTicks_ = 0;
+        return window_.isSettled();
+    }
+    return ++pluginTicks_ * kTickMilliseconds > kPluginMilliseconds;
+}
+
 void Unattended::tick() {
-    settledTicks_ = window_.isSettled() ? settledTicks_ + 1 : 0;
+    settledTicks_ = isSettled() ? settledTicks_ + 1 : 0;
     if (settledTicks_ < kSettledTicks || ended_) return;
     settledTicks_ = 0;
     if (steps_.empty()) {

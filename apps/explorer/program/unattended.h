@@ -28,6 +28,7 @@ class Unattended : public QObject {
     /// Runs when nothing is under way and everything is drawn.
     void then(std::function<void()> step) { steps_.push_back(std::move(step)); }
     void tick();
+    bool isSettled();
     void end(int code, const QString& sentence = {});
     void selectPixel();
     void selectRegion();
@@ -47,6 +48,7 @@ class Unattended : public QObject {
     std::deque<std::function<void()>> steps_;
     QTimer timer_;
     int settledTicks_ = 0;
+    int pluginTicks_ = 0;   ///< for so long nothing was waited for but plugins
     bool ended_ = false;
     struct Picture {
         QString file, caption;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 #include "base/qt_compat.h"
+#include "base/seen_on.h"
 #include "emca/analysis/format.h"
 #include "emca/analysis/statistics.h"
 #include "emca/query/vertex_values.h"
@@ -31,10 +33,11 @@ bool sameSet(const PathSet& a, const PathSet& b) {
 
 }  // namespace
 
-void PathColoring::update(const PathSet& paths, const PathColorStyle& style) {
+void PathColoring::update(const PathSet& paths, const PathColorStyle& style, const QColor& ground) {
     const bool stale = style.quantity != style_.quantity || !sameSet(paths, paths_);
-    if (!stale && style == style_) return;
+    if (!stale && style == style_ && ground == ground_) return;
     style_ = style;
+    ground_ = ground;
     if (stale) evaluate(paths);
     recolor();
 }
@@ -45,6 +48,7 @@ void PathColoring::evaluate(const PathSet& paths) {
     known_.clear();
     categories_.clear();
     error_.clear();
+    integral_ = false;
     if (style_.quantity.empty() || paths.empty()) return;
     const auto result = query::vertexValues(style_.quantity, paths);
     if (!result) {
@@ -72,6 +76,8 @@ void PathColoring::evaluate(const PathSet& paths) {
     }
     for (std::size_t i = 0; i < values_.size(); ++i)
         if (known_[i]) values_[i] = numberOf(*result, i);
+    integral_ = true;
+    for (std::size_t i = 0; i < values_.size() && integral_; ++i) integral_ = !known_[i] || !std::isfinite(values_[i]) || values_[i] == std::floor(values_[i]);
 }
 
 void PathColoring::recolor() {
@@ -94,13 +100,21 @@ void PathColoring::recolor() {
     }
     const analysis::ColorMap& map = analysis::ColorMap::get(style_.map);
     colors_.resize(values_.size());
-    for (std::size_t i = 0; i < values_.size(); ++i) colors_[i] = map.map(values_[i], range_);
+    // A map has few colours, and there may be half a million vertices.
+    std::unordered_map<std::uint32_t, analysis::Color8> seen;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        const analysis::Color8 c = map.map(values_[i], range_);
+        const auto [found, added] = seen.try_emplace(std::uint32_t(c.r) << 16 | std::uint32_t(c.g) << 8 | c.b, c);
+        if (added && ground_.isValid()) found->second = seenOn(c, ground_);
+        colors_[i] = found->second;
+    }
 }
 
 QString PathColoring::title() const { return toQString(style_.quantity); }
 
 QColor PathColoring::categoryColor(std::size_t category) const {
-    const analysis::Color8 c = analysis::ColorMap::get(style_.map).map(double(category), range_);
+    analysis::Color8 c = analysis::ColorMap::get(style_.map).map(double(category), range_);
+    if (ground_.isValid()) c = seenOn(c, ground_);
     return {c.r, c.g, c.b};
 }
 

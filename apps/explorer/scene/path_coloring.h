@@ -27,7 +27,8 @@ struct PathColorStyle {
 class PathColoring {
   public:
     /// Evaluates the quantity if it or the paths are others than before.
-    void update(const PathSet& paths, const PathColorStyle& style);
+    /// \param ground  of the picture: colours of the map are made to be seen on it; invalid: as they are
+    void update(const PathSet& paths, const PathColorStyle& style, const QColor& ground = {});
 
     const PathColorStyle& style() const { return style_; }
     bool isOn() const { return !colors_.empty(); }
@@ -35,6 +36,7 @@ class PathColoring {
     const QString& error() const { return error_; }
     QString title() const;                       ///< the quantity, and its unit if that is known
     const analysis::ValueRange& range() const { return range_; }
+    bool isIntegral() const { return integral_; }   ///< all values are whole numbers
     /// Of texts those that occur, in the order of the alphabet; empty for numbers.
     const std::vector<std::string>& categories() const { return categories_; }
     QColor categoryColor(std::size_t category) const;
@@ -55,6 +57,8 @@ class PathColoring {
     std::vector<std::string> categories_;
     std::vector<analysis::Color8> colors_;
     analysis::ValueRange range_;
+    QColor ground_;
+    bool integral_ = false;
     QString error_;
 };
 

@@ -29,6 +29,13 @@ TEST(PathColoring, SegmentsHaveTheColourOfTheirValue) {
         EXPECT_EQ(coloring.color(v, Qt::red), QColor(c.r, c.g, c.b));
         EXPECT_EQ(coloring.value(v), paths.depthIndex(v));
     }
+    EXPECT_TRUE(coloring.isIntegral());
+    // On a dark ground the dark end is lifted, the rest stays.
+    const QColor dark(24, 25, 27);
+    coloring.update(paths, style, dark);
+    EXPECT_GT(coloring.color(0, Qt::red).lightness(), QColor(map.map(1.0, coloring.range()).r, map.map(1.0, coloring.range()).g, map.map(1.0, coloring.range()).b).lightness());
+    const analysis::Color8 middle = map.map(3.0, coloring.range());
+    EXPECT_EQ(coloring.color(2, Qt::red), QColor(middle.r, middle.g, middle.b));
     style.limits = SurfaceLimits{2, 3};
     coloring.update(paths, style);
     EXPECT_EQ(coloring.range().max, 3);
@@ -37,6 +44,9 @@ TEST(PathColoring, SegmentsHaveTheColourOfTheirValue) {
     style.quantity = "sample";
     coloring.update(paths, style);
     for (Index v = 0; v < paths.vertexCount(); ++v) EXPECT_EQ(coloring.value(v), paths.sample(paths.pathOf(v)));
+    style.quantity = "v.position.x";
+    coloring.update(paths, style);
+    EXPECT_FALSE(coloring.isIntegral());
 }
 
 TEST(PathColoring, TextsAreCategoriesAndNothingIsGrey) {

@@ -57,7 +57,7 @@ void SceneView::Impl::rebuildPaths() {
     for (const Vec3f& p : geometry.points)
         if (isFinite(p)) pathBox.extend(p);
     updateExtent();
-    coloring.update(paths, options.colors);
+    coloring.update(paths, options.colors, theme.colors().sceneBottom);
     if (pathLayer) {
         pathLayer->setPaths(&paths, &geometry);
         pathLayer->setRays(ShownRays(raySwitches, paths));
@@ -125,7 +125,7 @@ void SceneView::Impl::applyOptions() {
 /// Colours by value follow the options and the paths.
 void SceneView::Impl::recolorPaths() {
     if (options.colors == coloring.style()) return;
-    coloring.update(paths, options.colors);
+    coloring.update(paths, options.colors, theme.colors().sceneBottom);
     if (pathLayer) pathLayer->recolor();
     arrange();
 }

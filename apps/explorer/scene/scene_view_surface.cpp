@@ -66,7 +66,8 @@ std::vector<std::pair<ColorBar*, ColorBarContent>> SceneView::Impl::bars() const
     if (!canvas) return shownBars;
     if (surfaces.shown() && !surfaces.isColor()) shownBars.push_back({bar, {surfaces.style().map, surfaces.range(), {}, surfaces.title()}});
     if (coloring.isOn() && coloring.categories().empty() && options.paths != PathChoice::none)
-        shownBars.push_back({pathBar, {options.colors.map, coloring.range(), {}, coloring.title()}});
+        shownBars.push_back({pathBar, {.map = options.colors.map, .range = coloring.range(), .title = coloring.title(),
+                                       .integral = coloring.isIntegral(), .ground = theme.colors().sceneBottom}});
     return shownBars;
 }
 

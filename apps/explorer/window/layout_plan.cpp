@@ -13,7 +13,11 @@ namespace {
 QString tr(const char* text) { return QCoreApplication::translate("emca::explorer::LayoutPlan", text); }
 
 const QStringList kPlots{"plots-rgb", "plots-luminance", "plots-depth", "plots-parallel"};
-const QStringList kTools{"outliers", "filter", "region", "history", "surfaces", "sceneOptions", "notes"};
+// Few enough for a narrow edge to show all of their tabs. What was done stands with the paths, what belongs to the selected
+// vertex with its values.
+const QStringList kTools{"outliers", "filter", "region", "surfaces", "sceneOptions"};
+const QStringList kPaths{"paths", "history", "notes"};
+const QStringList kVertex{"vertex", "plugin-intersection-data", "plugin-light-probe", "plugin-spherical-mixture"};
 
 using Cell = LayoutPlan::Cell;
 using Row = LayoutPlan::Row;
@@ -27,7 +31,7 @@ Cell withRest(QStringList docks, double width = 1) { return {std::move(docks), w
 LayoutPlan standard() {
     LayoutPlan plan{"default", tr("Default"), tr("Image and plots at the left, scene and values at the right, tools at the edge"), {}, true};
     plan.columns = {column(0.4, {row(0.56, {cell({"image"})}), row(0.44, {cell(kPlots)})}),
-                    column(0.6, {row(0.58, {cell({"scene"}, 0.68), withRest(kTools, 0.32)}), row(0.42, {cell({"paths"}, 0.54), cell({"vertex", "plugin-intersection-data"}, 0.46)})})};
+                    column(0.6, {row(0.58, {cell({"scene"}, 0.68), withRest(kTools, 0.32)}), row(0.42, {cell(kPaths, 0.54), cell(kVertex, 0.46)})})};
     return plan;
 }
 
@@ -36,7 +40,7 @@ LayoutPlan fireflyHunt() {
     LayoutPlan plan{"firefly", tr("Firefly hunt"), tr("Outliers and luminance beside the image; the path, its vertices and values large"), {}, false};
     plan.columns = {column(0.3, {row(0.5, {cell({"image"})}), row(0.5, {cell({"plots-luminance", "plots-rgb", "plots-depth", "plots-parallel"})})}),
                     column(0.42, {row(0.5, {cell({"scene"})}), row(0.5, {cell({"paths"})})}),
-                    column(0.28, {row(0.5, {withRest({"outliers", "filter", "history", "notes"})}), row(0.5, {cell({"vertex", "plugin-intersection-data"})})})};
+                    column(0.28, {row(0.5, {withRest({"outliers", "filter", "history", "notes"})}), row(0.5, {cell(kVertex)})})};
     return plan;
 }
 

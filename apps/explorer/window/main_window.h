@@ -61,12 +61,15 @@ class MainWindow : public QMainWindow {
         std::function<bool()> settled;                      ///< nothing is being loaded
         std::function<QVariantMap()> read;                  ///< their settings, for a layout
         std::function<void(const QVariantMap&)> write;
+        std::function<bool()> working;                      ///< one of them waits for an answer
     };
     void setPluginHooks(PluginHooks hooks) { pluginHooks_ = std::move(hooks); }
     /// Brings a dock's tab to the front.
     void showDock(const QString& name);
     /// Nothing is under way and every view has drawn what it has.
     bool isSettled() const;
+    /// A plugin waits for an answer or for work of its own; it may do so for as long as it likes.
+    bool isPluginWorking() const { return pluginHooks_.working && pluginHooks_.working(); }
 
   public slots:
     void connectTo(const emca::client::Address& address, const QString& token = {});

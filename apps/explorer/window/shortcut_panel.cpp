@@ -39,9 +39,11 @@ QString keysOf(const QAction& action) {
 void collect(const QMenu& menu, const QString& group, std::vector<ShortcutPanel::Entry>& out) {
     for (QAction* action : menu.actions()) {
         if (action->isSeparator() || action->text().isEmpty()) continue;
-        if (action->menu()) collect(*action->menu(), group + QStringLiteral("  ›  ") + plain(action->text()), out);
-        else out.push_back({group, plain(action->text()), keysOf(*action), action});
+        if (!action->menu()) out.push_back({group, plain(action->text()), keysOf(*action), action});
     }
+    // After the menu's own entries, so that its group is there once.
+    for (QAction* action : menu.actions())
+        if (action->menu()) collect(*action->menu(), group + QStringLiteral("  ›  ") + plain(action->text()), out);
 }
 
 }  // namespace

@@ -91,6 +91,9 @@ TEST_F(ShortcutPanelTest, WordsFindAndEnterDoesIt) {
     ShortcutPanel& panel = window.shortcuts();
     ASSERT_TRUE(panel.isVisible());
     EXPECT_TRUE(panel.field().hasFocus());
+    QStringList groups;
+    for (int i = 0; i < panel.list().topLevelItemCount(); ++i) groups << panel.list().topLevelItem(i)->text(0);
+    EXPECT_EQ(groups.removeDuplicates(), 0) << "a menu with another one in it is one group, and the other one the next";
     // Letters that are keys of the window are text here.
     QTest::keyClicks(&panel.field(), "light theme");
     QTest::keyClick(&panel.field(), Qt::Key_Return);

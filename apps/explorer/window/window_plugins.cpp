@@ -37,7 +37,8 @@ WindowPlugins::WindowPlugins(MainWindow& window, client::Dataset& dataset, clien
         if (window_) window_->toast().showError(sentence, tr("Plugins"), [this] { window_->showDock("plugins"); });
     });
     window.setPluginHooks({[this] { return manager_->isSettled(); }, [this] { return manager_->savedSettings(); },
-                           [this](const QVariantMap& saved) { manager_->restoreSettings(saved); }});
+                           [this](const QVariantMap& saved) { manager_->restoreSettings(saved); },
+                           [this] { return manager_->isWorking(); }});
 }
 
 WindowPlugins::~WindowPlugins() {

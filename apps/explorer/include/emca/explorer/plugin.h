@@ -79,7 +79,7 @@ struct PluginEntry {
 #endif
 
 /// Once in one source file, outside of all namespaces:
-///     EMCA_EXPLORER_PLUGIN("light-probe", "Light probe", "What a vertex sees in all directions.", PluginPlace::tools, makeLightProbe)
+///     EMCA_EXPLORER_PLUGIN("light-probe", "Light probe", "What a vertex sees in all directions.", PluginPlace::details, makeLightProbe)
 /// \param make  a function QWidget*(PluginContext&)
 #define EMCA_EXPLORER_PLUGIN(id, title, summary, place, make)                                                             \
     extern "C" EMCA_PLUGIN_EXPORT const ::emca::explorer::PluginEntry emca_explorer_plugin;                               \
