@@ -28,7 +28,7 @@ void Observer::beginPath(PathRecorder emca, SurfaceTally* tally) {
     tally_ = tally;
     depth_ = 0;
     begun_ = hereIsMedium_ = false;
-    here_.reset(), waiting_.reset(), leaving_.reset(), sampled_.reset(), phase_.reset(), light_.reset(), shadowChain_.reset();
+    here_.reset(), waiting_.reset(), leaving_.reset(), sampled_.reset(), phase_.reset(), light_.reset(), choice_.reset(), shadowChain_.reset();
 }
 
 void Observer::endPath(const Spectrum& radiance) {
@@ -160,13 +160,7 @@ void Observer::shadowTested(const Ray& ray, bool occluded) {
     if (tally_) tally_->shadowTest(!occluded);
 }
 
-void Observer::lightChosen(Real u, int light) {
-    // Before it is known whether the path is at the hit that waits: without a medium it is, since a path chooses light
-    // where it stands.
-    if (!medium_ && waiting_) beginSurfaceVertex(*waiting_);
-    emca_.addIntersectionData("random number (light choice)", u);
-    emca_.addIntersectionData("light", [&] { return std::string_view(loaded_.lightName(light)); });
-}
+void Observer::lightChosen(Real u, int light) { choice_ = LightChoice{u, light}; }  // of where the path is, lightSampled() tells
 
 void Observer::lightProbability(int, Real probability) { emca_.addIntersectionData("light probability", probability); }
 
@@ -175,6 +169,11 @@ void Observer::lightSampled(const Light& light, const Vector3& from, const Vecto
     arriveAt(from);
     const bool infinite = is_envmap(light);
     light_ = {infinite ? -point.normal : point.position, infinite};
+    if (choice_) {
+        emca_.addIntersectionData("random number (light choice)", choice_->u);
+        emca_.addIntersectionData("light", [&] { return std::string_view(loaded_.lightName(choice_->light)); });
+        choice_.reset();
+    }
     emca_.addIntersectionData("random numbers (light)", recordable(u));
     emca_.addIntersectionData("random number (triangle)", uTriangle);
     if (tally_) tally_->nextEvent(light, point, uTriangle);

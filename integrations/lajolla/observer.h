@@ -77,6 +77,8 @@ class Observer {
     std::optional<Sampled> phase_;             ///< of a scattering in a medium whose place is not known yet
     struct LightPoint { Vector3 position; bool infinite; };  ///< position: a direction where infinite
     std::optional<LightPoint> light_;
+    struct LightChoice { Real u; int light; };
+    std::optional<LightChoice> choice_;        ///< of a point that was not asked for yet
     std::optional<Vector3> shadowChain_;       ///< light of shadow rays that go through borders between media
 };
 

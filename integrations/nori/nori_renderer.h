@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "emca/server/renderer.h"
+#include "emca/server/server_tool.h"
+#include "loaded_scene.h"
+
+namespace emca::adapter {
+struct PixelLoop;
+}
+
+namespace emca::nori_adapter {
+
+/// What requests get that do not say otherwise.
+struct NoriOptions {
+    std::uint32_t samplesPerPixel = 0;  ///< 0: the scene's
+    std::uint64_t seed = 0;
+    unsigned threads = 0;               ///< 0: one per processor
+};
+
+/// Offers a scene of Nori, with the integrator that it names, to EMCA's server. May be called from several threads at once,
+/// as Nori itself calls integrators.
+class NoriRenderer final : public Renderer {
+  public:
+    NoriRenderer(std::shared_ptr<const LoadedScene> scene, NoriOptions options) : scene_(std::move(scene)), options_(options) {}
+
+    RendererInfo info() const override;
+    Camera camera() const override { return scene_->camera(); }
+    std::vector<Mesh> meshes() const override { return scene_->meshes(); }
+    std::vector<LayerDescription> surfaceLayers() const override { return nori_adapter::surfaceLayers(); }
+    Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
+    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) override;
+    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) override;
+
+    /// Light probes with the scene's integrator.
+    std::shared_ptr<ServerTool> lightProbes() const;
+
+  private:
+    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const;
+    std::uint32_t samplesPerPixel() const;
+
+    std::shared_ptr<const LoadedScene> scene_;
+    NoriOptions options_;
+};
+
+}  // namespace emca::nori_adapter
