@@ -84,6 +84,7 @@ class Terminal {
             return;
         }
         if (std::smatch match; std::regex_search(command, match, std::regex(R"(^cmake .*-D(EMCA_[A-Z0-9_]+)=)"))) return knowOptions(command);
+        if (std::smatch match; std::regex_search(command, match, std::regex(R"(^cmake --build build/\S+( --target (\S+))?$)"))) return knowTarget(match[2]);
         if (std::smatch match; std::regex_search(command, match, std::regex(R"(^(?:\S*/)?(emca-(?:bridge|pbrt|lajolla|nori)|mitsuba)\b)"))) return knowAdapter(match[1], command);
         if (command.rfind("cmake --install ", 0) == 0) return;  // tests/consumer installs and uses it
         // python/tests install the package, and serve and read back this example.
@@ -98,10 +99,17 @@ class Terminal {
 
   private:
     /// Adapters need renderers that this machine may not have: their options are at least those of the source.
-    static void knowOptions(const std::string& command) {
+    static std::string buildFiles() {
         std::string known;
         for (const auto& entry : fs::recursive_directory_iterator(kSource / "integrations"))
             if (entry.path().extension() == ".txt" || entry.path().extension() == ".cmake") known += contents(entry.path());
+        return known;
+    }
+
+    static void knowTarget(const std::string& target) { EXPECT_NE(buildFiles().find(target), std::string::npos) << target; }
+
+    static void knowOptions(const std::string& command) {
+        const std::string known = buildFiles();
         const std::regex option(R"(-D(EMCA_[A-Z0-9_]+)=)");
         for (std::sregex_iterator it(command.begin(), command.end(), option), end; it != end; ++it)
             EXPECT_NE(known.find((*it)[1].str()), std::string::npos) << (*it)[1];
