@@ -23,7 +23,7 @@ struct RendererInfo {
     std::uint32_t width = 0, height = 0;  ///< of the image, in pixels
     std::uint32_t samplesPerPixel = 1;    ///< the scene's own choice
     std::string integrator, sampler;      ///< names; may be empty
-    std::uint64_t seed = 0;
+    std::uint64_t seed = 0;               ///< of the scene; requests that name none are given this one, with hasSeed
     /// renderPixel may run while renderImage does, and several renderPixel at once. If false the server runs one after
     /// the other.
     bool concurrent = false;
