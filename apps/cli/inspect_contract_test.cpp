@@ -69,6 +69,49 @@ TEST_F(Inspects, OutliersAreThoseOfTheLibrary) {
     EXPECT_EQ(csv.out.rfind("sample,part,luminance,deviations,depth,events\n", 0), 0u);
 }
 
+TEST_F(Inspects, OutliersPerPixelAreThoseOfEachPixelAlone) {
+    for (const std::vector<std::string>& method : {std::vector<std::string>{"--deviations", "1.9"}, {"--method", "esd", "--alpha", "0.9"}}) {
+        const auto ask = [&](std::vector<std::string> where, const char* format) {
+            where.insert(where.begin(), {"outliers", address()});
+            where.insert(where.end(), method.begin(), method.end());
+            where.insert(where.end(), {"--spp", "64", format});
+            return where;
+        };
+        const Json region = json(ask({"--rect", "2,3,5,5", "--per-pixel"}, "--json"));
+        EXPECT_EQ(region["rect"], Json({2, 3, 5, 5}));
+        EXPECT_EQ(region["replays"]["unknown"], 6);
+        EXPECT_EQ(region["paths"], 6 * 64);
+        ASSERT_EQ(region["pixels"].size(), 6u);
+        std::size_t outliers = 0;
+        for (const Json& of : region["pixels"]) {
+            const Json alone = json(ask({of["pixel"][0].dump(), of["pixel"][1].dump()}, "--json"));
+            for (const char* member : {"considered", "notFinite", "mean", "standardDeviation", "lower", "upper", "paths"}) EXPECT_EQ(of[member], alone[member]) << member;
+            Json here = Json::array();
+            for (Json one : region["outliers"]) {
+                if (one["pixel"] != of["pixel"]) continue;
+                one.erase("pixel");
+                here.push_back(one);
+            }
+            EXPECT_EQ(here, alone["outliers"]) << "in their order, too";
+            outliers += here.size();
+        }
+        EXPECT_EQ(region["outliers"].size(), outliers);
+        EXPECT_GT(outliers, 3u);
+        const Finished csv = run(ask({"--rect", "2,3,5,5", "--per-pixel"}, "--csv"));
+        EXPECT_EQ(lines(csv.out), outliers + 1);
+        EXPECT_EQ(csv.out.rfind("x,y,sample,part,", 0), 0u);
+    }
+    const Finished text = run({"outliers", address(), "--rect", "2,3,5,5", "--per-pixel", "--spp", "64"});
+    EXPECT_NE(text.out.find("region 3x2 at (2, 3)"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("of its own pixel: in"), std::string::npos) << text.out;
+    const Json together = json({"outliers", address(), "--rect", "2,3,5,5", "--spp", "64", "--json"});
+    EXPECT_EQ(together["considered"], 6 * 64);
+    EXPECT_FALSE(together.contains("pixels"));
+    expectError({"outliers", address()}, Exit::usage, "--rect");
+    expectError({"outliers", address(), "1", "2", "--rect", "2,3,5,5"}, Exit::usage, "one of the two");
+    expectError({"outliers", address(), "--rect", "2,3,99,5"}, Exit::input, "beyond the image");
+}
+
 TEST_F(Inspects, OutliersByTheGeneralizedEsdTest) {
     const auto expected = analysis::detectOutliers(
         luminances(64), {.method = analysis::OutlierMethod::generalizedEsd, .maximum = 6, .significance = 0.5});

@@ -99,6 +99,9 @@ TEST_F(Scans, ASavedPixelAnswersAsTheRendererDid) {
     EXPECT_EQ(some["where"]["paths"], 8);
     EXPECT_EQ(json({"stats", "all.emca", x, y, "--json"})["summary"], json({"stats", address(), x, y, "--spp", "8", "--json"})["summary"]);
     EXPECT_EQ(json({"outliers", "all.emca", x, y, "--json"})["outliers"], json({"outliers", address(), x, y, "--spp", "8", "--json"})["outliers"]);
+    const Json region = json({"outliers", "all.emca", "--rect", "2,3,5,6", "--per-pixel", "--deviations", "1", "--json"});
+    EXPECT_GT(region["outliers"].size(), 9u);
+    EXPECT_EQ(region["outliers"], json({"outliers", address(), "--rect", "2,3,5,6", "--per-pixel", "--deviations", "1", "--spp", "8", "--json"})["outliers"]);
     expectError({"pixel", "all.emca", "999", "0"}, Exit::input, "was not traced");
     expectError({"pixel", "all.emca", x, y, "--spp", "8"}, Exit::usage, "session");
 }

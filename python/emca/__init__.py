@@ -24,7 +24,7 @@ from .queries import Matches
 from .renderer import PathRecorder, Recording, Renderer, RendererInfo, RenderSettings, RequestMonitor, SeedMap, Server, recorder, serve
 from .scene import Camera, Color, ColorA, LayerDescription, Mesh, Surface, SurfaceLayer
 from .session import Session, open, save
-from .statistics import outliers
+from .statistics import outliers, outliers_per_pixel
 from .table import Table
 from .trace import MatchCounts, Replay, Trace
 
@@ -32,7 +32,7 @@ from .trace import MatchCounts, Replay, Trace
 __all__ = [
     "connect", "Connection", "ServerInfo", "Trace", "Replay", "MatchCounts", "PathSet", "Vertices", "Contributions", "NextEvents",
     "Splats", "Column", "Matches", "Table", "merge", "Event", "Lobe", "Image", "Camera", "Mesh", "Surface", "SurfaceLayer",
-    "LayerDescription", "Color", "ColorA", "outliers", "statistics", "image_metrics", "Session", "save", "Renderer",
+    "LayerDescription", "Color", "ColorA", "outliers", "outliers_per_pixel", "statistics", "image_metrics", "Session", "save", "Renderer",
     "RendererInfo", "RenderSettings", "RequestMonitor", "Recording", "PathRecorder", "SeedMap", "recorder", "serve", "Server",
     "Error", "InputError", "FileError", "QueryError", "NotRecordedError", "ServerError", "Cancelled", "QueryWarning",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from . import _native
 from .paths import PathSet
 from .trace import Trace
 
-__all__ = ["outliers", "Outliers", "EsdStep", "summarize", "Summary", "histogram", "Histogram"]
+__all__ = ["outliers", "outliers_per_pixel", "Outliers", "EsdStep", "summarize", "Summary", "histogram", "Histogram"]
 
 
 class EsdStep(NamedTuple):
@@ -66,12 +66,34 @@ def outliers(of: Union[PathSet, Trace, Any], method: str = "deviation", quantity
     Raises:
         InputError: an option out of range. ValueError: no such method or quantity.
     """
-    if method not in ("deviation", "esd"):
-        raise ValueError(f'method is {method!r}, but must be "deviation" or "esd"')
-    options = (method == "esd", deviations, upper_only, maximum, significance)
+    options = _outlier_options(method, deviations, upper_only, maximum, significance)
     if isinstance(of, Trace):
         of = of.paths
-    report = _native.path_outliers(of._native, quantity, *options) if isinstance(of, PathSet) else _native.value_outliers(of, *options)
+    return _as_outliers(_native.path_outliers(of._native, quantity, *options) if isinstance(of, PathSet) else _native.value_outliers(of, *options))
+
+
+def outliers_per_pixel(of: Union[PathSet, Trace], method: str = "deviation", quantity: str = "luminance", *, deviations: float = 3.0,
+                       upper_only: bool = False, maximum: int = 10, significance: float = 0.05) -> Dict[Tuple[int, int], Outliers]:
+    """Paths that stand out from the others of their own pixel, as if each pixel of a region had been traced alone.
+
+    Args: as of :func:`outliers`.
+    Returns:
+        By pixel (x, y), in their order. ``indices`` are positions in the whole set.
+    Raises:
+        InputError: an option out of range. ValueError: no such method or quantity.
+    """
+    options = _outlier_options(method, deviations, upper_only, maximum, significance)
+    paths = of.paths if isinstance(of, Trace) else of
+    return {pixel: _as_outliers(report) for pixel, report in _native.path_outliers_per_pixel(paths._native, quantity, *options)}
+
+
+def _outlier_options(method: str, *parameters: Any) -> Tuple[Any, ...]:
+    if method not in ("deviation", "esd"):
+        raise ValueError(f'method is {method!r}, but must be "deviation" or "esd"')
+    return (method == "esd", *parameters)
+
+
+def _as_outliers(report: Dict[str, Any]) -> Outliers:
     report["steps"] = [EsdStep(*step) for step in report["steps"]]
     return Outliers(**report)
 

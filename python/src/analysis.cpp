@@ -62,6 +62,19 @@ py::dict pathOutliers(const PathSet& paths, const std::string& quantity, bool es
     return toDict(unwrap(detect()));
 }
 
+py::list pathOutliersPerPixel(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly,
+                              std::size_t maximum, double significance) {
+    OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
+    options.quantity = toQuantity(quantity);
+    const auto detect = [&] {
+        const Unlocked unlocked;
+        return detectOutliersPerPixel(paths, options);
+    };
+    py::list out;
+    for (PixelOutliers& one : unwrap(detect())) out.append(py::make_tuple(py::make_tuple(one.pixel.x, one.pixel.y), toDict(std::move(one.report))));
+    return out;
+}
+
 py::dict valueOutliers(py::handle given, bool esd, double deviations, bool upperOnly, std::size_t maximum,
                        double significance) {
     const OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
@@ -180,6 +193,7 @@ py::list fireflies(py::handle image, int radius, float ratio, std::size_t maximu
 
 void bindAnalysis(py::module_& module) {
     module.def("path_outliers", &pathOutliers);
+    module.def("path_outliers_per_pixel", &pathOutliersPerPixel);
     module.def("value_outliers", &valueOutliers);
     module.def("summarize",
                [](py::handle values) { return toDict(summarize(std::span<const double>(toDoubles(values)))); });

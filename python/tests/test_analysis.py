@@ -42,6 +42,22 @@ class Outliers(unittest.TestCase):
         self.assertEqual(list(emca.outliers(trace, "esd", "red").indices), [17])
         self.assertEqual(list(emca.outliers(trace, quantity="depth").indices), [])
 
+    def test_per_pixel_is_each_pixel_alone(self):
+        class Uneven(Known):
+            spp = 32
+            def value(self, pixel, sample):
+                return (10.0 ** pixel[0] * (5 if sample == 9 + pixel[0] else 1 + sample % 3 / 10),) * 3
+        with emca.serve(Uneven()) as server, emca.connect(server.address) as connection:
+            region = connection.pixels([(0, 0), (1, 0), (2, 0)])
+            alone = [emca.outliers(connection.pixel(x, 0)) for x in range(3)]
+        self.assertNotIn(9, emca.outliers(region).indices)   # the dark pixel's hides behind the bright one
+        found = emca.outliers_per_pixel(region)
+        self.assertEqual(list(found), [(0, 0), (1, 0), (2, 0)])
+        for x in range(3):
+            self.assertEqual(list(found[x, 0].indices), [32 * x + i for i in alone[x].indices])
+            self.assertEqual(list(alone[x].indices), [9 + x])
+            self.assertEqual((found[x, 0].mean, found[x, 0].upper), (alone[x].mean, alone[x].upper))
+
     def test_errors(self):
         with self.assertRaises(emca.InputError):
             emca.outliers(ROSNER, deviations=-1)
