@@ -12,13 +12,13 @@ namespace emca::pbrt4 {
 
 struct CommandLine {
     std::vector<std::string> scenes;
-    std::string output;                             ///< image to write; empty where it serves
+    std::string output;  ///< image to write; empty where it serves
     std::optional<adapter::ServeAddress> serve;
     std::string token;
     bool allowQuit = false;
-    std::string integrator;                         ///< empty: the scene's
+    std::string integrator;  ///< empty: the scene's
     std::optional<int> samplesPerPixel, seed;
-    int threads = 0;                                ///< 0: one per processor
+    int threads = 0;  ///< 0: one per processor
     std::uint64_t largestTriangleCount = 20'000'000;
 };
 

@@ -30,23 +30,26 @@ struct EmcaPathIntegrator::Walk {
     pbrt::SampledWavelengths& lambda;
     pbrt::Sampler sampler;
     SampledSpectrum estimate{0}, throughput{1};
-    pbrt::LightSampleContext from;   ///< the last scattering, as light sampling would have seen it
-    Float scatteringDensity = 0;     ///< with which the ray's direction was chosen, per steradian
+    pbrt::LightSampleContext from;  ///< the last scattering, as light sampling would have seen it
+    Float scatteringDensity = 0;    ///< with which the ray's direction was chosen, per steradian
     /// Only this path finds the light that it meets: it comes from the camera, a mirror, or through a boundary without
     /// material.
     bool alone = true;
-    bool rough = false;              ///< some scattering was not specular
-    Float etaScale = 1;              ///< radiance is squeezed inside glass: roulette must not see that
+    bool rough = false;  ///< some scattering was not specular
+    Float etaScale = 1;  ///< radiance is squeezed inside glass: roulette must not see that
     const char* end = "";
 };
 
-EmcaPathIntegrator::EmcaPathIntegrator(const Settings& settings, pbrt::Camera camera_, pbrt::Sampler sampler, pbrt::Primitive scene,
-                                       std::vector<pbrt::Light> lights_, const SceneView& view)
-    : RayIntegrator(camera_, sampler, scene, lights_), settings_(settings),
-      lightSampler_(pbrt::LightSampler::Create(settings.lightSampler, lights, pbrt::Allocator())), view_(view) {}
+EmcaPathIntegrator::EmcaPathIntegrator(const Settings& settings, pbrt::Camera camera_, pbrt::Sampler sampler,
+                                       pbrt::Primitive scene, std::vector<pbrt::Light> lights_, const SceneView& view)
+    : RayIntegrator(camera_, sampler, scene, lights_),
+      settings_(settings),
+      lightSampler_(pbrt::LightSampler::Create(settings.lightSampler, lights, pbrt::Allocator())),
+      view_(view) {}
 
-SampledSpectrum EmcaPathIntegrator::Li(pbrt::RayDifferential ray, pbrt::SampledWavelengths& lambda, pbrt::Sampler sampler,
-                                       pbrt::ScratchBuffer& scratch, pbrt::VisibleSurface*) const {
+SampledSpectrum EmcaPathIntegrator::Li(pbrt::RayDifferential ray, pbrt::SampledWavelengths& lambda,
+                                       pbrt::Sampler sampler, pbrt::ScratchBuffer& scratch,
+                                       pbrt::VisibleSurface*) const {
     PathContext silent{.view = view_};
     return radiance(ray, lambda, sampler, scratch, silent, settings_.maximumDepth);
 }
@@ -56,7 +59,9 @@ SampledSpectrum EmcaPathIntegrator::radiance(const pbrt::RayDifferential& ray, p
                                              int maximumDepth) const {
     emca::PathRecorder& recorder = context.recorder;
     Walk walk{.ray = ray, .lambda = lambda, .sampler = sampler};
-    const auto radianceColor = [&](const SampledSpectrum& s) { return view_.colors.radiance(context.cameraWeight * s, lambda); };
+    const auto radianceColor = [&](const SampledSpectrum& s) {
+        return view_.colors.radiance(context.cameraWeight * s, lambda);
+    };
 
     int vertex = 1;
     for (int depth = 0;; ++vertex) {
@@ -103,7 +108,8 @@ SampledSpectrum EmcaPathIntegrator::radiance(const pbrt::RayDifferential& ray, p
     return walk.estimate;
 }
 
-void EmcaPathIntegrator::arrive(const Walk& walk, const pbrt::SurfaceInteraction& at, int vertex, PathContext& context) const {
+void EmcaPathIntegrator::arrive(const Walk& walk, const pbrt::SurfaceInteraction& at, int vertex,
+                                PathContext& context) const {
     emca::PathRecorder& recorder = context.recorder;
     recorder.setDepthIndex(vertex);
     if (!context.watch) return;
@@ -114,9 +120,11 @@ void EmcaPathIntegrator::arrive(const Walk& walk, const pbrt::SurfaceInteraction
     if (place.known()) recorder.setIntersectionSurface(place.mesh, place.face);
     recorder.addIntersectionData("throughput", throughput);
     std::array<float, pbrt::NSpectrumSamples> store;
-    recorder.addIntersectionData("throughput (spectrum)", [&] { return values(context.cameraWeight * walk.throughput, store); });
+    recorder.addIntersectionData("throughput (spectrum)",
+                                 [&] { return values(context.cameraWeight * walk.throughput, store); });
     if (place.known()) {
-        recorder.addIntersectionData("shape", [&] { return std::string_view(view_.surfaces.meshes()[std::size_t(place.mesh)].name); });
+        recorder.addIntersectionData(
+            "shape", [&] { return std::string_view(view_.surfaces.meshes()[std::size_t(place.mesh)].name); });
     }
     if (context.tally) {
         context.tally->intersection({place.mesh, place.face, position}, context.cameraWeight * walk.throughput);
@@ -128,7 +136,8 @@ void EmcaPathIntegrator::environmentLight(Walk& walk, PathContext& context) cons
     emca::PathRecorder& recorder = context.recorder;
     recorder.setIntersectionPosEnvmap([&] { return view_.environmentPoint(walk.ray); });
     recorder.setIntersectionEvent(Event::background);
-    recorder.addIntersectionData("throughput", [&] { return view_.colors.factor(context.cameraWeight * walk.throughput, walk.lambda); });
+    recorder.addIntersectionData(
+        "throughput", [&] { return view_.colors.factor(context.cameraWeight * walk.throughput, walk.lambda); });
     SampledSpectrum emission(0);
     for (const pbrt::Light& light : infiniteLights) {
         const SampledSpectrum Le = light.Le(walk.ray, walk.lambda);
@@ -145,8 +154,9 @@ void EmcaPathIntegrator::environmentLight(Walk& walk, PathContext& context) cons
         if (context.tally) context.tally->hit(weight * Le);
         recorder.addIntersectionData("MIS weight (hit)", number(weight));
         recorder.addIntersectionData("light (hit)", [&] { return view_.surfaces.lightName(light); });
-        recorder.addContribution([&] { return view_.colors.radiance(context.cameraWeight * walk.throughput * weight * Le, walk.lambda); },
-                                 walk.alone ? "emitter hit" : "BSDF sampling", number(weight), LightEnd::hit);
+        recorder.addContribution(
+            [&] { return view_.colors.radiance(context.cameraWeight * walk.throughput * weight * Le, walk.lambda); },
+            walk.alone ? "emitter hit" : "BSDF sampling", number(weight), LightEnd::hit);
     }
     recorder.setIntersectionEmission([&] { return view_.colors.radiance(emission, walk.lambda); });
 }
@@ -160,7 +170,8 @@ void EmcaPathIntegrator::emittedLight(Walk& walk, const pbrt::SurfaceInteraction
     if (walk.alone) {
         walk.estimate += walk.throughput * Le;
     } else {
-        const Float lightDensity = lightSampler_.PMF(walk.from, at.areaLight) * at.areaLight.PDF_Li(walk.from, walk.ray.d, true);
+        const Float lightDensity =
+            lightSampler_.PMF(walk.from, at.areaLight) * at.areaLight.PDF_Li(walk.from, walk.ray.d, true);
         weight = pbrt::PowerHeuristic(1, walk.scatteringDensity, 1, lightDensity);
         walk.estimate += walk.throughput * weight * Le;
         recorder.addIntersectionData("light pdf (hit)", number(lightDensity));
@@ -168,8 +179,9 @@ void EmcaPathIntegrator::emittedLight(Walk& walk, const pbrt::SurfaceInteraction
     if (context.tally) context.tally->hit(weight * Le);
     recorder.addIntersectionData("MIS weight (hit)", number(weight));
     recorder.addIntersectionData("light (hit)", [&] { return view_.surfaces.lightName(at.areaLight); });
-    recorder.addContribution([&] { return view_.colors.radiance(context.cameraWeight * walk.throughput * weight * Le, walk.lambda); },
-                             walk.alone ? "emitter hit" : "BSDF sampling", number(weight), LightEnd::hit);
+    recorder.addContribution(
+        [&] { return view_.colors.radiance(context.cameraWeight * walk.throughput * weight * Le, walk.lambda); },
+        walk.alone ? "emitter hit" : "BSDF sampling", number(weight), LightEnd::hit);
 }
 
 void EmcaPathIntegrator::sampledLight(Walk& walk, const pbrt::SurfaceInteraction& at, const pbrt::BSDF& bsdf,
@@ -206,7 +218,9 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const pbrt::SurfaceInteraction
     recorder.addIntersectionData("BSDF value (light)", [&] { return view_.colors.factor(f, walk.lambda); });
     const bool delta = IsDeltaLight(choice->light.Type());
     // Asked for by what is recorded also where the light is hidden; that changes nothing, as no number is drawn.
-    const auto weightOf = [&](Float bsdfDensity) { return delta ? Float(1) : pbrt::PowerHeuristic(1, lightDensity, 1, bsdfDensity); };
+    const auto weightOf = [&](Float bsdfDensity) {
+        return delta ? Float(1) : pbrt::PowerHeuristic(1, lightDensity, 1, bsdfDensity);
+    };
     if (context.watch) {
         const Float bsdfDensity = bsdf.PDF(wo, wi);
         recorder.addIntersectionData("BSDF pdf (light)", number(bsdfDensity));
@@ -225,8 +239,9 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const pbrt::SurfaceInteraction
     }
     walk.estimate += walk.throughput * direct;
     if (context.tally) context.tally->direct(direct);
-    recorder.addContribution([&] { return view_.colors.radiance(context.cameraWeight * walk.throughput * direct, walk.lambda); },
-                             "light sampling", number(weight), LightEnd::connected);
+    recorder.addContribution(
+        [&] { return view_.colors.radiance(context.cameraWeight * walk.throughput * direct, walk.lambda); },
+        "light sampling", number(weight), LightEnd::connected);
 }
 
 bool EmcaPathIntegrator::scatter(Walk& walk, const pbrt::SurfaceInteraction& at, const pbrt::BSDF& bsdf, int depth,

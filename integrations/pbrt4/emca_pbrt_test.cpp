@@ -22,7 +22,9 @@ class Unwatched final : public RequestMonitor {
 /// pbrt can be started once in a process: all tests share the room.
 PbrtRenderer& room() {
     static const std::unique_ptr<PbrtRenderer> renderer = [] {
-        auto scene = LoadedScene::load({.files = {EMCA_SOURCE_DIR "/integrations/pbrt4/scenes/room.pbrt"}, .threads = 2, .integrator = "emcapath"});
+        auto scene = LoadedScene::load({.files = {EMCA_SOURCE_DIR "/integrations/pbrt4/scenes/room.pbrt"},
+                                        .threads = 2,
+                                        .integrator = "emcapath"});
         if (!scene) throw std::runtime_error(scene.error().message);
         auto made = PbrtRenderer::make(std::move(*scene), {.sceneName = "room", .samplesPerPixel = 2, .threads = 2});
         if (!made) throw std::runtime_error(made.error().message);
@@ -45,7 +47,8 @@ Image rendered(const RenderSettings& settings) {
 std::size_t differentValues(const Image& a, const Image& b) {
     EXPECT_EQ(a.size(), b.size());
     std::size_t different = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) different += std::bit_cast<std::uint32_t>(a.data()[i]) != std::bit_cast<std::uint32_t>(b.data()[i]);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        different += std::bit_cast<std::uint32_t>(a.data()[i]) != std::bit_cast<std::uint32_t>(b.data()[i]);
     return different;
 }
 
@@ -72,7 +75,8 @@ TEST(Replay, IsExactForEveryIntegratorWhileEverythingIsRecorded) {
     for (const char* integrator : {"emcapath", "path", "simplepath", "volpath", "randomwalk", "ambientocclusion"}) {
         const Image image = rendered(with(integrator));
         for (int i = 0; i < 20; ++i) {
-            const Pixel pixel{static_cast<std::uint32_t>(random() % image.width()), static_cast<std::uint32_t>(random() % image.height())};
+            const Pixel pixel{static_cast<std::uint32_t>(random() % image.width()),
+                              static_cast<std::uint32_t>(random() % image.height())};
             Color value;
             const PathSet paths = traced(pixel, with(integrator), value);
             EXPECT_EQ(compare(image.color(pixel), value), Verdict::exact) << integrator;
@@ -135,7 +139,9 @@ TEST(Patches, ParametersAreFoundAgain) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> number(-0.3f, 0.3f), unit(0.f, 1.f);
     for (int i = 0; i < 1000; ++i) {
-        const auto corner = [&](float x, float y) { return pbrt::Point3f(x + number(random), y + number(random), number(random)); };
+        const auto corner = [&](float x, float y) {
+            return pbrt::Point3f(x + number(random), y + number(random), number(random));
+        };
         const PatchCorners patch{corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
         const Vec2f uv{unit(random), unit(random)}, found = patch.parameterOf(patch.at(uv));
         EXPECT_NEAR(found.x, uv.x, 1e-3f);
@@ -145,8 +151,9 @@ TEST(Patches, ParametersAreFoundAgain) {
 
 TEST(Requests, ThatPbrtWouldEndTheProcessForAreRefused) {
     Unwatched monitor;
-    for (const RenderSettings& settings : {with("bdpt"), with("no such integrator"), with("simplevolpath"), with("path", "no such sampler"),
-                                           RenderSettings{.samplesPerPixel = 3, .sampler = "zsobol"}, RenderSettings{.samplesPerPixel = ~0u}}) {
+    for (const RenderSettings& settings :
+         {with("bdpt"), with("no such integrator"), with("simplevolpath"), with("path", "no such sampler"),
+          RenderSettings{.samplesPerPixel = 3, .sampler = "zsobol"}, RenderSettings{.samplesPerPixel = ~0u}}) {
         const auto image = room().renderImage(settings, monitor);
         ASSERT_FALSE(image.ok());
         EXPECT_FALSE(image.error().message.empty());

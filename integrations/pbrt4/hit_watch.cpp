@@ -12,17 +12,23 @@ using Hit = pstd::optional<pbrt::ShapeIntersection>;
 
 }  // namespace
 
-// Free functions with the object as first parameter have the calling convention of its member functions (Itanium C++ ABI,
-// section 3.1). The names are the build's: CMakeLists.txt reads them from the library.
-Hit realIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) asm("__real_" EMCA_PBRT_INTERSECT);
-bool realIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) asm("__real_" EMCA_PBRT_INTERSECT_P);
-pbrt::BSDF realGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray, pbrt::SampledWavelengths& lambda,
-                       pbrt::Camera camera, pbrt::ScratchBuffer& scratch, pbrt::Sampler sampler) asm("__real_" EMCA_PBRT_GET_BSDF);
+// Free functions with the object as first parameter have the calling convention of its member functions (Itanium C++
+// ABI, section 3.1). The names are the build's: CMakeLists.txt reads them from the library.
+Hit realIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray,
+                  pbrt::Float tMax) asm("__real_" EMCA_PBRT_INTERSECT);
+bool realIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray,
+                    pbrt::Float tMax) asm("__real_" EMCA_PBRT_INTERSECT_P);
+pbrt::BSDF realGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray,
+                       pbrt::SampledWavelengths& lambda, pbrt::Camera camera, pbrt::ScratchBuffer& scratch,
+                       pbrt::Sampler sampler) asm("__real_" EMCA_PBRT_GET_BSDF);
 
-Hit wrapIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) asm("__wrap_" EMCA_PBRT_INTERSECT);
-bool wrapIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Float tMax) asm("__wrap_" EMCA_PBRT_INTERSECT_P);
-pbrt::BSDF wrapGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray, pbrt::SampledWavelengths& lambda,
-                       pbrt::Camera camera, pbrt::ScratchBuffer& scratch, pbrt::Sampler sampler) asm("__wrap_" EMCA_PBRT_GET_BSDF);
+Hit wrapIntersect(const pbrt::Primitive* self, const pbrt::Ray& ray,
+                  pbrt::Float tMax) asm("__wrap_" EMCA_PBRT_INTERSECT);
+bool wrapIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray,
+                    pbrt::Float tMax) asm("__wrap_" EMCA_PBRT_INTERSECT_P);
+pbrt::BSDF wrapGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray,
+                       pbrt::SampledWavelengths& lambda, pbrt::Camera camera, pbrt::ScratchBuffer& scratch,
+                       pbrt::Sampler sampler) asm("__wrap_" EMCA_PBRT_GET_BSDF);
 
 /// What is done at the calls that the linker sends here.
 struct WrappedCalls {
@@ -93,10 +99,12 @@ bool wrapIntersectP(const pbrt::Primitive* self, const pbrt::Ray& ray, pbrt::Flo
     return watch == nullptr ? realIntersectP(self, ray, tMax) : watchedIntersectP(self, ray, tMax);
 }
 
-pbrt::BSDF wrapGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray, pbrt::SampledWavelengths& lambda,
-                       pbrt::Camera camera, pbrt::ScratchBuffer& scratch, pbrt::Sampler sampler) {
+pbrt::BSDF wrapGetBsdf(pbrt::SurfaceInteraction* self, const pbrt::RayDifferential& ray,
+                       pbrt::SampledWavelengths& lambda, pbrt::Camera camera, pbrt::ScratchBuffer& scratch,
+                       pbrt::Sampler sampler) {
     pbrt::BSDF made = realGetBsdf(self, ray, lambda, camera, scratch, sampler);
-    if (watch != nullptr) [[unlikely]] WrappedCalls::bsdf(*watch, *self, made);
+    if (watch != nullptr) [[unlikely]]
+        WrappedCalls::bsdf(*watch, *self, made);
     return made;
 }
 

@@ -15,7 +15,8 @@ class RayWatcher {
   public:
     virtual ~RayWatcher() = default;
     /// A ray was traced to its first hit. Render space. \param hit  null if there was none before tMax
-    virtual void traced(const pbrt::Ray& ray, pbrt::Float tMax, const pbrt::SurfaceInteraction* hit, const HitChain& chain) = 0;
+    virtual void traced(const pbrt::Ray& ray, pbrt::Float tMax, const pbrt::SurfaceInteraction* hit,
+                        const HitChain& chain) = 0;
     /// It was asked whether anything is in between.
     virtual void tested(const pbrt::Ray& ray, pbrt::Float tMax, bool blocked) = 0;
     /// The BSDF at the last hit was made; unset where the surface has no material.

@@ -13,10 +13,10 @@ struct Shown {
 };
 
 // NOLINTBEGIN: a tag, its function, and the instantiation that may name a private member.
-#define EMCA_SHOWN(Tag, Class, member)                                       \
-    struct Tag {                                                             \
-        friend constexpr auto shown(Tag);                                    \
-    };                                                                       \
+#define EMCA_SHOWN(Tag, Class, member)    \
+    struct Tag {                          \
+        friend constexpr auto shown(Tag); \
+    };                                    \
     template struct Shown<Tag, &Class::member>;
 // NOLINTEND
 
@@ -163,7 +163,8 @@ Quadric quadric(const pbrt::Cylinder& cylinder) {
 const pbrt::CurveCommon* curve(const pbrt::Curve& segment) { return of<CurveData>(segment); }
 
 FilmSettings settings(const pbrt::Film& film) {
-    if (const auto* rgb = film.CastOrNullptr<pbrt::RGBFilm>()) return {of<RgbFilmSpace>(*rgb), of<RgbFilmLargest>(*rgb)};
+    if (const auto* rgb = film.CastOrNullptr<pbrt::RGBFilm>())
+        return {of<RgbFilmSpace>(*rgb), of<RgbFilmLargest>(*rgb)};
     if (const auto* buffer = film.CastOrNullptr<pbrt::GBufferFilm>()) {
         return {of<GBufferFilmSpace>(*buffer), of<GBufferFilmLargest>(*buffer)};
     }
@@ -175,7 +176,8 @@ std::unique_ptr<pbrt::RayIntegrator> withDepth(const pbrt::RayIntegrator& integr
     if (auto copy = copyWithDepth<pbrt::PathIntegrator, PathDepth>(integrator, maximumDepth)) return copy;
     if (auto copy = copyWithDepth<pbrt::SimplePathIntegrator, SimplePathDepth>(integrator, maximumDepth)) return copy;
     if (auto copy = copyWithDepth<pbrt::VolPathIntegrator, VolPathDepth>(integrator, maximumDepth)) return copy;
-    if (auto copy = copyWithDepth<pbrt::SimpleVolPathIntegrator, SimpleVolPathDepth>(integrator, maximumDepth)) return copy;
+    if (auto copy = copyWithDepth<pbrt::SimpleVolPathIntegrator, SimpleVolPathDepth>(integrator, maximumDepth))
+        return copy;
     return copyWithDepth<pbrt::RandomWalkIntegrator, RandomWalkDepth>(integrator, maximumDepth);
 }
 

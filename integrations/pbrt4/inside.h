@@ -6,7 +6,8 @@
 #include "pbrt_headers.h"
 
 /// What pbrt's objects hold and do not show: its meshes, its shapes' sizes, what its aggregates are made of. Read only.
-/// An explicit instantiation may name private members ([temp.spec.general]); inside.cpp uses that and nothing else does.
+/// An explicit instantiation may name private members ([temp.spec.general]); inside.cpp uses that and nothing else
+/// does.
 namespace emca::pbrt4::inside {
 
 /// A primitive with a shape of its own.
@@ -20,8 +21,8 @@ Leaf leaf(const pbrt::Primitive& primitive);  ///< only if isLeaf()
 
 /// A primitive that places another one: an instance, or a shape that moves.
 bool isInstance(const pbrt::Primitive& primitive);
-pbrt::Primitive placed(const pbrt::Primitive& instance);                            ///< what it places
-pbrt::Transform transform(const pbrt::Primitive& instance, pbrt::Float time);       ///< from there to where it is used
+pbrt::Primitive placed(const pbrt::Primitive& instance);                       ///< what it places
+pbrt::Transform transform(const pbrt::Primitive& instance, pbrt::Float time);  ///< from there to where it is used
 
 /// Of a BVH or a kd-tree; empty for every other primitive.
 std::span<const pbrt::Primitive> parts(const pbrt::Primitive& aggregate);
@@ -46,7 +47,7 @@ struct Quadric {
     bool reverseOrientation = false;
 };
 Quadric quadric(const pbrt::Sphere& sphere);
-Quadric quadric(const pbrt::Disk& disk);          ///< its height is zMin and zMax
+Quadric quadric(const pbrt::Disk& disk);  ///< its height is zMin and zMax
 Quadric quadric(const pbrt::Cylinder& cylinder);
 
 const pbrt::CurveCommon* curve(const pbrt::Curve& segment);
@@ -58,8 +59,8 @@ struct FilmSettings {
 };
 FilmSettings settings(const pbrt::Film& film);
 
-/// A copy of an integrator of pbrt's with another maximum depth; null if it has none. A second one made by its constructor
-/// would write to the lights, which may be in use.
+/// A copy of an integrator of pbrt's with another maximum depth; null if it has none. A second one made by its
+/// constructor would write to the lights, which may be in use.
 std::unique_ptr<pbrt::RayIntegrator> withDepth(const pbrt::RayIntegrator& integrator, int maximumDepth);
 
 }  // namespace emca::pbrt4::inside

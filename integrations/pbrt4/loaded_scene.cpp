@@ -9,8 +9,10 @@ namespace emca::pbrt4 {
 namespace {
 
 constexpr std::size_t kKeptSamplers = 4;
-constexpr const char* kObserved[] = {"path", "simplepath", "volpath", "simplevolpath", "randomwalk", "ambientocclusion"};
-constexpr const char* kSamplers[] = {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"};
+constexpr const char* kObserved[] = {"path",          "simplepath", "volpath",
+                                     "simplevolpath", "randomwalk", "ambientocclusion"};
+constexpr const char* kSamplers[] = {"halton", "independent", "paddedsobol", "pmj02bn",
+                                     "sobol",  "stratified",  "zsobol"};
 constexpr const char* kLightSamplers[] = {"bvh", "exhaustive", "power", "uniform"};
 
 template <std::size_t N>
@@ -76,8 +78,8 @@ std::vector<pbrt::ParsedParameter> copied(const pbrt::ParameterDictionary& dicti
     return parameters;
 }
 
-/// Whether pbrt's table of points fills the pixels of a tile evenly: if not, its sampler ends the process. (A pbrt whose
-/// table was replaced by another one is seen so.)
+/// Whether pbrt's table of points fills the pixels of a tile evenly: if not, its sampler ends the process. (A pbrt
+/// whose table was replaced by another one is seen so.)
 bool pmjTableHolds(int samples) {
     const int tile = 1 << (pbrt::Log4Int(pbrt::nPMJ02bnSamples) - pbrt::Log4Int(pbrt::RoundUpPow4(samples)));
     std::vector<int> points(std::size_t(tile) * std::size_t(tile));
@@ -85,15 +87,18 @@ bool pmjTableHolds(int samples) {
         const pbrt::Point2f p = pbrt::GetPMJ02BNSample(0, i) * tile;
         ++points[std::size_t(int(p.x) + int(p.y) * tile)];
     }
-    return std::all_of(points.begin(), points.end(), [&](int n) { return n >= samples && (n == samples || !pbrt::IsPowerOf4(samples)); });
+    return std::all_of(points.begin(), points.end(),
+                       [&](int n) { return n >= samples && (n == samples || !pbrt::IsPowerOf4(samples)); });
 }
 
 Error unknownIntegrator(const std::string& name) {
     const std::string known = std::string(kOwnIntegrator) + ", " + listed(kObserved);
     for (const char* splatting : {"bdpt", "mlt", "sppm", "lightpath"}) {
         if (name == splatting) {
-            return {ErrorCode::notSupported, "pbrt's integrator \"" + name + "\" lets paths add to any pixel, so that no pixel can be "
-                                             "rendered alone; choose one of " + known + "."};
+            return {ErrorCode::notSupported, "pbrt's integrator \"" + name +
+                                                 "\" lets paths add to any pixel, so that no pixel can be "
+                                                 "rendered alone; choose one of " +
+                                                 known + "."};
         }
     }
     return {ErrorCode::notSupported, "There is no integrator \"" + name + "\" here; there are " + known + "."};
@@ -153,8 +158,9 @@ Result<std::unique_ptr<LoadedScene>> LoadedScene::load(const LoadOptions& option
     pbrt::Point3f centre;
     pbrt::Float radius = 1;
     if (loaded->root_) loaded->root_.Bounds().BoundingSphere(&centre, &radius);
-    loaded->view_ = std::make_unique<SceneView>(SceneView{*loaded->surfaces_, loaded->materials_, SpectrumColors(loaded->film()),
-                                                          WorldSpace(loaded->camera_.GetCameraTransform()), centre, radius});
+    loaded->view_ =
+        std::make_unique<SceneView>(SceneView{*loaded->surfaces_, loaded->materials_, SpectrumColors(loaded->film()),
+                                              WorldSpace(loaded->camera_.GetCameraTransform()), centre, radius});
     const auto sampler = loaded->sampler("", {}, {});
     if (!sampler) return sampler.error();
     loaded->samplesPerPixel_ = (*sampler)->sampler.SamplesPerPixel();
@@ -173,20 +179,25 @@ Result<void> LoadedScene::makeIntegrators(const pbrt::BasicScene& scene) {
                                                 .lightSampler = dictionary.GetOneString("lightsampler", "bvh"),
                                                 .regularize = dictionary.GetOneBool("regularize", false)};
     if (!contains(kLightSamplers, settings.lightSampler)) {
-        return Error{ErrorCode::invalidArgument, "The scene's integrator asks for the light sampler \"" + settings.lightSampler +
-                                                     "\"; there are " + listed(kLightSamplers) + "."};
+        return Error{ErrorCode::invalidArgument, "The scene's integrator asks for the light sampler \"" +
+                                                     settings.lightSampler + "\"; there are " + listed(kLightSamplers) +
+                                                     "."};
     }
     const pbrt::Sampler prototype = samplers_.back().prototype->sampler;
-    integrators_[kOwnIntegrator] = std::make_unique<EmcaPathIntegrator>(settings, camera_, prototype, root_, lights_, *view_);
+    integrators_[kOwnIntegrator] =
+        std::make_unique<EmcaPathIntegrator>(settings, camera_, prototype, root_, lights_, *view_);
     // What this one does not take would end the process, at the first ray that meets it.
-    if (std::any_of(lights_.begin(), lights_.end(), [](const pbrt::Light& light) { return IsDeltaLight(light.Type()); })) {
-        whyNoSimpleVolpath_ = "pbrt's \"simplevolpath\" takes area lights and infinite lights only, and the scene has others.";
+    if (std::any_of(lights_.begin(), lights_.end(),
+                    [](const pbrt::Light& light) { return IsDeltaLight(light.Type()); })) {
+        whyNoSimpleVolpath_ =
+            "pbrt's \"simplevolpath\" takes area lights and infinite lights only, and the scene has others.";
     } else if (surfaces_->anyScatters()) {
         whyNoSimpleVolpath_ = "pbrt's \"simplevolpath\" takes no surfaces that scatter, and the scene has some.";
     }
     for (const std::string name : kObserved) {
         if (name == "simplevolpath" && !whyNoSimpleVolpath_.empty()) continue;
-        auto made = pbrt::Integrator::Create(name, dictionary, camera_, prototype, root_, lights_, scene.filmColorSpace, &scene.integrator.loc);
+        auto made = pbrt::Integrator::Create(name, dictionary, camera_, prototype, root_, lights_, scene.filmColorSpace,
+                                             &scene.integrator.loc);
         if (auto* rays = dynamic_cast<pbrt::RayIntegrator*>(made.get())) {
             static_cast<void>(made.release());
             integrators_[name].reset(rays);
@@ -199,12 +210,14 @@ Result<void> LoadedScene::checkWatching() const {
     const pbrt::Bounds2f bounds(film().PixelBounds());
     constexpr int kSteps = 16;
     for (int i = 0; i < kSteps * kSteps; ++i) {
-        const pbrt::Point2f at = bounds.Lerp(pbrt::Point2f((float(i % kSteps) + 0.5f) / kSteps, (float(i / kSteps) + 0.5f) / kSteps));
+        const pbrt::Point2f at =
+            bounds.Lerp(pbrt::Point2f((float(i % kSteps) + 0.5f) / kSteps, (float(i / kSteps) + 0.5f) / kSteps));
         const auto ray = filmRay(camera_, at);
         if (!ray || !root_ || !root_.Intersect(*ray, pbrt::Infinity)) continue;
         if (HitWatch::works(root_, *ray)) return {};
-        return Error{ErrorCode::notSupported, "This pbrt was linked so that its calls cannot be seen (link-time optimisation?); build pbrt "
-                                              "without it."};
+        return Error{ErrorCode::notSupported,
+                     "This pbrt was linked so that its calls cannot be seen (link-time optimisation?); build pbrt "
+                     "without it."};
     }
     return {};  // nothing is seen anyway
 }
@@ -218,31 +231,39 @@ Result<const pbrt::RayIntegrator*> LoadedScene::integrator(const std::string& as
     return unknownIntegrator(name);
 }
 
-Result<std::shared_ptr<const SamplerPrototype>> LoadedScene::sampler(const std::string& asked, std::optional<int> samplesPerPixel,
+Result<std::shared_ptr<const SamplerPrototype>> LoadedScene::sampler(const std::string& asked,
+                                                                     std::optional<int> samplesPerPixel,
                                                                      std::optional<int> seed) const {
     const std::string name = asked.empty() ? samplerName_ : asked;
     if (!contains(kSamplers, name)) {
-        return Error{ErrorCode::notSupported, "pbrt has no sampler \"" + name + "\"; it has " + listed(kSamplers) + "."};
+        return Error{ErrorCode::notSupported,
+                     "pbrt has no sampler \"" + name + "\"; it has " + listed(kSamplers) + "."};
     }
     // A sampler's own parameters mean nothing to another one.
     Parameters parameters(name == samplerName_ ? samplerParameters_ : std::vector<pbrt::ParsedParameter>());
     const pbrt::ParameterDictionary scenes = parameters.dictionary();
-    const int samples = samplesPerPixel.value_or(samplesPerPixel_ > 0                ? samplesPerPixel_
-                                                 : name == "stratified"              ? scenes.GetOneInt("xsamples", 4) * scenes.GetOneInt("ysamples", 4)
-                                                                                     : scenes.GetOneInt("pixelsamples", name == "independent" ? 4 : 16));
+    const int samples = samplesPerPixel.value_or(
+        samplesPerPixel_ > 0   ? samplesPerPixel_
+        : name == "stratified" ? scenes.GetOneInt("xsamples", 4) * scenes.GetOneInt("ysamples", 4)
+                               : scenes.GetOneInt("pixelsamples", name == "independent" ? 4 : 16));
     const int number = seed.value_or(scenes.GetOneInt("seed", pbrt::Options->seed));
-    if (samples < 1) return Error{ErrorCode::invalidArgument, "Asked for " + std::to_string(samples) + " samples per pixel: at least 1 it must be."};
+    if (samples < 1)
+        return Error{ErrorCode::invalidArgument,
+                     "Asked for " + std::to_string(samples) + " samples per pixel: at least 1 it must be."};
     const bool askedFor = samplesPerPixel.has_value();
     if (name == "zsobol" && askedFor && !pbrt::IsPowerOf2(samples)) {
-        return Error{ErrorCode::invalidArgument, "pbrt's sampler \"zsobol\" takes a power of two of samples per pixel; asked for " +
-                                                     std::to_string(samples) + "."};
+        return Error{ErrorCode::invalidArgument,
+                     "pbrt's sampler \"zsobol\" takes a power of two of samples per pixel; asked for " +
+                         std::to_string(samples) + "."};
     }
     if (name == "pmj02bn" && samples > pbrt::nPMJ02bnSamples) {
-        return Error{ErrorCode::invalidArgument, "pbrt's sampler \"pmj02bn\" has at most " + std::to_string(pbrt::nPMJ02bnSamples) +
+        return Error{ErrorCode::invalidArgument, "pbrt's sampler \"pmj02bn\" has at most " +
+                                                     std::to_string(pbrt::nPMJ02bnSamples) +
                                                      " samples per pixel; asked for " + std::to_string(samples) + "."};
     }
     if (name == "pmj02bn" && !pmjTableHolds(samples)) {
-        return Error{ErrorCode::notSupported, "This pbrt's table of \"pmj02bn\" points is not what it has to be; take another sampler."};
+        return Error{ErrorCode::notSupported,
+                     "This pbrt's table of \"pmj02bn\" points is not what it has to be; take another sampler."};
     }
 
     const std::scoped_lock lock(samplerMutex_);
@@ -273,20 +294,24 @@ Camera LoadedScene::viewerCamera() const {
     const WorldSpace& world = view_->world;
     const pbrt::Bounds2f bounds(film().PixelBounds());
     const auto ray = [&](float x, float y) { return filmRay(camera_, bounds.Lerp(pbrt::Point2f(x, y))); };
-    const auto middle = ray(0.5f, 0.5f), top = ray(0.5f, 0.f), bottom = ray(0.5f, 1.f), left = ray(0.f, 0.5f), right = ray(1.f, 0.5f);
+    const auto middle = ray(0.5f, 0.5f), top = ray(0.5f, 0.f), bottom = ray(0.5f, 1.f), left = ray(0.f, 0.5f),
+               right = ray(1.f, 0.5f);
     Camera camera;
     camera.kind = camera_.Is<pbrt::OrthographicCamera>() ? CameraKind::orthographic
                   : camera_.Is<pbrt::SphericalCamera>()  ? CameraKind::spherical
-                  : camera_.Is<pbrt::PerspectiveCamera>() || camera_.Is<pbrt::RealisticCamera>() ? CameraKind::perspective
-                                                                                                : CameraKind::other;
+                  : camera_.Is<pbrt::PerspectiveCamera>() || camera_.Is<pbrt::RealisticCamera>()
+                      ? CameraKind::perspective
+                      : CameraKind::other;
     camera.farClip = 1e3f * float(view_->radius);
     if (!middle) return camera;
     camera.position = world.point(middle->o);
     camera.direction = normalize(world.direction(middle->d));
     if (camera.kind == CameraKind::spherical) {
         const auto& transform = camera_.GetCameraTransform();
-        camera.direction = normalize(world.direction(transform.RenderFromCamera(pbrt::Vector3f(0, 0, 1), camera_.SampleTime(0))));
-        camera.up = normalize(world.direction(transform.RenderFromCamera(pbrt::Vector3f(0, 1, 0), camera_.SampleTime(0))));
+        camera.direction =
+            normalize(world.direction(transform.RenderFromCamera(pbrt::Vector3f(0, 0, 1), camera_.SampleTime(0))));
+        camera.up =
+            normalize(world.direction(transform.RenderFromCamera(pbrt::Vector3f(0, 1, 0), camera_.SampleTime(0))));
         return camera;
     }
     if (!top || !bottom || !left || !right) return camera;
@@ -298,7 +323,8 @@ Camera LoadedScene::viewerCamera() const {
     camera.up = normalize(across(*bottom, *top));
     camera.rightHanded = dot(across(*left, *right), cross(camera.direction, camera.up)) > 0;
     const float cosine = dot(normalize(world.direction(top->d)), normalize(world.direction(bottom->d)));
-    if (camera.kind == CameraKind::perspective) camera.verticalFieldOfView = std::acos(std::clamp(cosine, -1.f, 1.f)) * 57.2957795f;
+    if (camera.kind == CameraKind::perspective)
+        camera.verticalFieldOfView = std::acos(std::clamp(cosine, -1.f, 1.f)) * 57.2957795f;
     return camera;
 }
 

@@ -17,11 +17,11 @@ namespace emca::pbrt4 {
 inline constexpr const char* kOwnIntegrator = "emcapath";
 
 struct LoadOptions {
-    std::vector<std::string> files;                     ///< of the scene, one behind the other as pbrt reads them
-    int threads = 0;                                    ///< of pbrt while it makes the scene; 0: one per processor
-    std::optional<int> seed;                            ///< as pbrt's --seed
-    std::size_t largestTriangleCount = 20'000'000;      ///< that the explorer gets
-    std::string integrator;                             ///< instead of the scene's
+    std::vector<std::string> files;                 ///< of the scene, one behind the other as pbrt reads them
+    int threads = 0;                                ///< of pbrt while it makes the scene; 0: one per processor
+    std::optional<int> seed;                        ///< as pbrt's --seed
+    std::size_t largestTriangleCount = 20'000'000;  ///< that the explorer gets
+    std::string integrator;                         ///< instead of the scene's
 };
 
 /// A sampler as it is before the first pixel, and its memory. Threads clone it.
@@ -30,8 +30,8 @@ struct SamplerPrototype {
     pbrt::Sampler sampler;
 };
 
-/// pbrt's scene, made by pbrt's own parser and functions, and what EMCA knows about it. Immutable once it is loaded: any
-/// thread may use it.
+/// pbrt's scene, made by pbrt's own parser and functions, and what EMCA knows about it. Immutable once it is loaded:
+/// any thread may use it.
 class LoadedScene {
   public:
     /// One in a process. pbrt ends the process, with its own message, where a scene has an error.

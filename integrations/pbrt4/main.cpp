@@ -58,7 +58,8 @@ int run(const CommandLine& line, adapter::EndingSignal& ending) {
                                     .integrator = line.integrator});
     if (!scene) return fail(scene.error(), kExitInput);
     if (const std::size_t left = (*scene)->surfaces().trianglesLeftOut(); left > 0) {
-        std::cerr << "warning: " << left << " triangles of instances are beyond --max-triangles; the explorer does not show them.\n";
+        std::cerr << "warning: " << left
+                  << " triangles of instances are beyond --max-triangles; the explorer does not show them.\n";
     }
     const RenderChoice choice{.sceneName = std::filesystem::path(line.scenes.front()).stem().string(),
                               .samplesPerPixel = line.samplesPerPixel,

@@ -28,18 +28,20 @@ void PathObserver::end() {
     flush(nullptr);
     if (vertex_ > 0 && !scattered_ && !left_) {
         recorder_.setIntersectionEvent(arrival_.at.areaLight ? Event::emission : Event::absorb, Lobe::none,
-                                               [&] { return view_.materials.of(arrival_.at.material); });
+                                       [&] { return view_.materials.of(arrival_.at.material); });
     }
     recorder_.addPathData("end", std::string_view(left_ ? "left the scene" : "inside the scene"));
     if (left_) recorder_.addPathData("left scene", true);
     if (tally_) tally_->end(vertex_);
 }
 
-void PathObserver::traced(const pbrt::Ray& ray, pbrt::Float tMax, const pbrt::SurfaceInteraction* hit, const HitChain& chain) {
+void PathObserver::traced(const pbrt::Ray& ray, pbrt::Float tMax, const pbrt::SurfaceInteraction* hit,
+                          const HitChain& chain) {
     if (tMax == kProbe) return;
     departure(ray);
     if (tMax == kToPoint) {  // a shadow ray through media and boundaries, segment by segment
-        if (!hit || hit->material) recorder_.setNextEventEstimationPos([&] { return view_.world.point(ray.o + ray.d); }, hit == nullptr);
+        if (!hit || hit->material)
+            recorder_.setNextEventEstimationPos([&] { return view_.world.point(ray.o + ray.d); }, hit == nullptr);
         return;
     }
     if (vertex_ > 0) recordDirection(ray.d);
@@ -62,10 +64,12 @@ void PathObserver::tested(const pbrt::Ray& ray, pbrt::Float tMax, bool blocked) 
     if (vertex_ == 0) return;
     // Towards a light: a segment to a point. Ambient occlusion asks along a direction.
     const bool toPoint = tMax == kToPoint;
-    recorder_.setNextEventEstimationPos([&] {
-        if (toPoint) return view_.world.point(ray.o + ray.d);
-        return std::isinf(tMax) ? view_.environmentPoint(ray) : view_.world.point(ray.o + tMax * ray.d);
-    }, !blocked);
+    recorder_.setNextEventEstimationPos(
+        [&] {
+            if (toPoint) return view_.world.point(ray.o + ray.d);
+            return std::isinf(tMax) ? view_.environmentPoint(ray) : view_.world.point(ray.o + tMax * ray.d);
+        },
+        !blocked);
 }
 
 void PathObserver::scattersBy(const pbrt::SurfaceInteraction& at, const pbrt::BSDF& bsdf) {
@@ -98,10 +102,12 @@ void PathObserver::recordSurface() {
     recorder_.setIntersectionPos(position);
     if (place.known()) {
         recorder_.setIntersectionSurface(place.mesh, place.face);
-        recorder_.addIntersectionData("shape", [&] { return std::string_view(view_.surfaces.meshes()[std::size_t(place.mesh)].name); });
+        recorder_.addIntersectionData(
+            "shape", [&] { return std::string_view(view_.surfaces.meshes()[std::size_t(place.mesh)].name); });
     }
     if (at.areaLight) {
-        recorder_.setIntersectionEmission([&] { return view_.colors.radiance(at.Le(-arrival_.ray.d, *lambda_), *lambda_); });
+        recorder_.setIntersectionEmission(
+            [&] { return view_.colors.radiance(at.Le(-arrival_.ray.d, *lambda_), *lambda_); });
         recorder_.addIntersectionData("light (hit)", [&] { return view_.surfaces.lightName(at.areaLight); });
     }
     if (tally_) tally_->intersection({place.mesh, place.face, position});

@@ -18,7 +18,8 @@ class PathObserver final : public RayWatcher {
     void begin(const pbrt::SampledWavelengths& lambda);
     void end();
 
-    void traced(const pbrt::Ray& ray, pbrt::Float tMax, const pbrt::SurfaceInteraction* hit, const HitChain& chain) override;
+    void traced(const pbrt::Ray& ray, pbrt::Float tMax, const pbrt::SurfaceInteraction* hit,
+                const HitChain& chain) override;
     void tested(const pbrt::Ray& ray, pbrt::Float tMax, bool blocked) override;
     void scattersBy(const pbrt::SurfaceInteraction& at, const pbrt::BSDF& bsdf) override;
 

@@ -1,8 +1,8 @@
 #pragma once
 
-// pbrt's headers, as one: they need each other, and are C++17. Two of its classes are aggregates there that C++20 takes for
-// none, because they name their default constructor: `Class() = default;`. While their headers are read, that line is a
-// comparison, which also may be `= default` and leaves an aggregate an aggregate.
+// pbrt's headers, as one: they need each other, and are C++17. Two of its classes are aggregates there that C++20 takes
+// for none, because they name their default constructor: `Class() = default;`. While their headers are read, that line is
+// a comparison, which also may be `= default` and leaves an aggregate an aggregate.
 
 #define Quaternion() friend bool operator==(const Quaternion&, const Quaternion&)
 #include <pbrt/util/vecmath.h>

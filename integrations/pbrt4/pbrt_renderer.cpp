@@ -8,11 +8,13 @@ namespace emca::pbrt4 {
 
 namespace {
 
-constexpr float kProbeOffset = 1e-4f;                       ///< of the scene's radius
-constexpr int kUnlimitedDepth = 1 << 20;                    ///< scattering events; roulette ends paths long before
+constexpr float kProbeOffset = 1e-4f;     ///< of the scene's radius
+constexpr int kUnlimitedDepth = 1 << 20;  ///< scattering events; roulette ends paths long before
 constexpr std::initializer_list<PathLayer> kSeenFromOutside = {PathLayer::intersections, PathLayer::pathDepth};
 
-bool isOwn(const pbrt::RayIntegrator& integrator) { return dynamic_cast<const EmcaPathIntegrator*>(&integrator) != nullptr; }
+bool isOwn(const pbrt::RayIntegrator& integrator) {
+    return dynamic_cast<const EmcaPathIntegrator*>(&integrator) != nullptr;
+}
 
 /// Layers that only our integrator can fill.
 bool wantsInside(const PathLayers& layers) {
@@ -22,7 +24,8 @@ bool wantsInside(const PathLayers& layers) {
 
 }  // namespace
 
-Result<std::unique_ptr<PbrtRenderer>> PbrtRenderer::make(std::unique_ptr<LoadedScene> scene, const RenderChoice& choice) {
+Result<std::unique_ptr<PbrtRenderer>> PbrtRenderer::make(std::unique_ptr<LoadedScene> scene,
+                                                         const RenderChoice& choice) {
     std::unique_ptr<PbrtRenderer> renderer(new PbrtRenderer(std::move(scene), choice));
     if (auto request = renderer->requestFor({}); !request) return request.error();
     return renderer;
@@ -55,7 +58,8 @@ Result<PixelRequest> PbrtRenderer::requestFor(const RenderSettings& settings) co
     if (!integrator) return integrator.error();
     std::optional<int> samples = choice_.samplesPerPixel;
     if (settings.samplesPerPixel > 0) {
-        if (settings.samplesPerPixel > 1u << 30) return Error{ErrorCode::tooLarge, "pbrt takes at most 2^30 samples per pixel."};
+        if (settings.samplesPerPixel > 1u << 30)
+            return Error{ErrorCode::tooLarge, "pbrt takes at most 2^30 samples per pixel."};
         samples = static_cast<int>(settings.samplesPerPixel);
     }
     std::optional<int> seed;
@@ -78,7 +82,8 @@ adapter::PixelLoop PbrtRenderer::loopFor(const PixelRequest& request, pbrt::Boun
             }};
 }
 
-Result<RenderedImage> PbrtRenderer::render(const RenderSettings& settings, RequestMonitor& monitor, SurfaceRecorder* surface) const {
+Result<RenderedImage> PbrtRenderer::render(const RenderSettings& settings, RequestMonitor& monitor,
+                                           SurfaceRecorder* surface) const {
     auto request = requestFor(settings);
     if (!request) return request.error();
     std::optional<PathLayers> layers;
@@ -86,8 +91,9 @@ Result<RenderedImage> PbrtRenderer::render(const RenderSettings& settings, Reque
         layers.emplace(*surface);
         request->layers = &*layers;
         if (!isOwn(request->integrator) && wantsInside(*layers)) {
-            return Error{ErrorCode::notSupported, "Of pbrt's own integrators only \"intersection density\" and \"path depth\" are seen from "
-                                                  "outside; for the other layers render with \"emcapath\"."};
+            return Error{ErrorCode::notSupported,
+                         "Of pbrt's own integrators only \"intersection density\" and \"path depth\" are seen from "
+                         "outside; for the other layers render with \"emcapath\"."};
         }
     }
     return adapter::renderImage(loopFor(*request, scene_->film().PixelBounds()), monitor, surface);
@@ -97,24 +103,31 @@ Result<RenderedImage> PbrtRenderer::renderImage(const RenderSettings& settings, 
     return render(settings, monitor, nullptr);
 }
 
-Result<RenderedImage> PbrtRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) {
+Result<RenderedImage> PbrtRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
+                                                          RequestMonitor& monitor) {
     return render(settings, monitor, &surface);
 }
 
-Result<Color> PbrtRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&, RequestMonitor& monitor) {
+Result<Color> PbrtRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&,
+                                        RequestMonitor& monitor) {
     const auto request = requestFor(settings);
     if (!request) return request.error();
-    const pbrt::Point2i place = scene_->film().PixelBounds().pMin + pbrt::Vector2i(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+    const pbrt::Point2i place =
+        scene_->film().PixelBounds().pMin + pbrt::Vector2i(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     return adapter::renderPixel(loopFor(*request, pbrt::Bounds2i(place, place + pbrt::Vector2i(1, 1))), pixel, monitor);
 }
 
 std::shared_ptr<ServerTool> PbrtRenderer::lightProbe() const {
-    const auto makeWorker = [this](const probe::LightProbeRequest& request) -> Result<std::unique_ptr<adapter::ProbeWorker>> {
+    const auto makeWorker =
+        [this](const probe::LightProbeRequest& request) -> Result<std::unique_ptr<adapter::ProbeWorker>> {
         const auto integrator = scene_->integrator(request.integrator);
         if (!integrator) return integrator.error();
         // Segments from the probe on are one more than scattering events.
-        const int depth = request.maximumDepth > 0 ? request.maximumDepth - 1 : request.maximumDepth < 0 ? kUnlimitedDepth : -1;
-        return std::unique_ptr<adapter::ProbeWorker>(std::make_unique<PbrtProbeWorker>(*scene_, **integrator, depth, request.seed));
+        const int depth = request.maximumDepth > 0   ? request.maximumDepth - 1
+                          : request.maximumDepth < 0 ? kUnlimitedDepth
+                                                     : -1;
+        return std::unique_ptr<adapter::ProbeWorker>(
+            std::make_unique<PbrtProbeWorker>(*scene_, **integrator, depth, request.seed));
     };
     return std::make_shared<adapter::LightProbeTool>(makeWorker, kProbeOffset * scene_->sceneRadius(), choice_.threads);
 }

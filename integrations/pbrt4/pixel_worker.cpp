@@ -34,12 +34,16 @@ const pbrt::Bounds2i kOnePixel(pbrt::Point2i(0, 0), pbrt::Point2i(1, 1));
 }  // namespace
 
 OwnFilm::OwnFilm(pbrt::Film scenes, pbrt::Bounds2i bounds)
-    : film_(pbrt::FilmBaseParameters(scenes.FullResolution(), bounds, scenes.GetFilter(), scenes.Diagonal() * 1000, scenes.GetPixelSensor(), ""),
+    : film_(pbrt::FilmBaseParameters(scenes.FullResolution(), bounds, scenes.GetFilter(), scenes.Diagonal() * 1000,
+                                     scenes.GetPixelSensor(), ""),
             inside::settings(scenes).colorSpace, inside::settings(scenes).largestComponent) {}
 
 PbrtPixelWorker::PbrtPixelWorker(const PixelRequest& request, std::shared_ptr<OwnFilm> film, SurfaceRecorder* surface)
-    : request_(request), own_(dynamic_cast<const EmcaPathIntegrator*>(&request.integrator)), film_(std::move(film)),
-      single_(request.scene.film(), kOnePixel), sampler_(pbrt::Sampler(request.sampler->sampler).Clone(pbrt::Allocator(&memory_))) {
+    : request_(request),
+      own_(dynamic_cast<const EmcaPathIntegrator*>(&request.integrator)),
+      film_(std::move(film)),
+      single_(request.scene.film(), kOnePixel),
+      sampler_(pbrt::Sampler(request.sampler->sampler).Clone(pbrt::Allocator(&memory_))) {
     if (!surface || !request_.layers) return;
     if (own_) {
         tally_.emplace(*request_.layers);
@@ -49,7 +53,8 @@ PbrtPixelWorker::PbrtPixelWorker(const PixelRequest& request, std::shared_ptr<Ow
 }
 
 pbrt::Point2i PbrtPixelWorker::filmPixel(Pixel pixel) const {
-    return request_.scene.film().PixelBounds().pMin + pbrt::Vector2i(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+    return request_.scene.film().PixelBounds().pMin +
+           pbrt::Vector2i(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
 }
 
 void PbrtPixelWorker::beginPixel(Pixel pixel) {
@@ -102,20 +107,23 @@ pbrt::SampledSpectrum PbrtPixelWorker::radiance(const pbrt::CameraSample& camera
     }
     // Texture footprints of a pixel's samples shrink as there are more of them, down to an eighth.
     const auto samples = pbrt::Float(sampler_.SamplesPerPixel());
-    if (!pbrt::Options->disablePixelJitter) ray->ray.ScaleDifferentials(std::max<pbrt::Float>(.125f, 1 / std::sqrt(samples)));
+    if (!pbrt::Options->disablePixelJitter)
+        ray->ray.ScaleDifferentials(std::max<pbrt::Float>(.125f, 1 / std::sqrt(samples)));
     const pbrt::SampledSpectrum arrived = ray->weight * traced(*ray, lambda);
     if (!arrived.HasNaNs() && !pbrt::IsInf(arrived.y(lambda))) return arrived;
     recorder().addPathData("not finite, taken as black", true);
     return pbrt::SampledSpectrum(0);
 }
 
-pbrt::SampledSpectrum PbrtPixelWorker::traced(const pbrt::CameraRayDifferential& ray, pbrt::SampledWavelengths& lambda) {
+pbrt::SampledSpectrum PbrtPixelWorker::traced(const pbrt::CameraRayDifferential& ray,
+                                              pbrt::SampledWavelengths& lambda) {
     emca::PathRecorder& emca = recorder();
     const SceneView& view = request_.scene.view();
     emca.setPathOrigin([&] { return view.world.point(ray.ray.o); });
     const bool told = emca.isRecording() || tally_ || observedTally_;
     if (own_) {
-        PathContext context{.view = view, .recorder = emca, .tally = tally_ ? &*tally_ : nullptr, .cameraWeight = ray.weight};
+        PathContext context{
+            .view = view, .recorder = emca, .tally = tally_ ? &*tally_ : nullptr, .cameraWeight = ray.weight};
         std::optional<HitWatch> watch;
         if (told) context.watch = &watch.emplace(request_.scene.root(), nullptr);
         return own_->radiance(ray.ray, lambda, sampler_, scratch_, context, own_->settings().maximumDepth);
@@ -141,9 +149,13 @@ Color PbrtPixelWorker::value(Pixel pixel, const PixelSums&) {
     return request_.scene.view().colors.rec709(film_->film().GetPixelRGB(filmPixel(pixel)));
 }
 
-PbrtProbeWorker::PbrtProbeWorker(const LoadedScene& scene, const pbrt::RayIntegrator& integrator, int maximumDepth, std::uint64_t seed)
-    : scene_(scene), integrator_(&integrator), own_(dynamic_cast<const EmcaPathIntegrator*>(&integrator)),
-      maximumDepth_(maximumDepth), sampler_(1, static_cast<int>(seed ^ seed >> 32)) {
+PbrtProbeWorker::PbrtProbeWorker(const LoadedScene& scene, const pbrt::RayIntegrator& integrator, int maximumDepth,
+                                 std::uint64_t seed)
+    : scene_(scene),
+      integrator_(&integrator),
+      own_(dynamic_cast<const EmcaPathIntegrator*>(&integrator)),
+      maximumDepth_(maximumDepth),
+      sampler_(1, static_cast<int>(seed ^ seed >> 32)) {
     if (own_) {
         if (maximumDepth_ < 0) maximumDepth_ = own_->settings().maximumDepth;
     } else if (maximumDepth_ >= 0) {

@@ -28,7 +28,7 @@ struct PixelRequest {
     const pbrt::RayIntegrator& integrator;
     std::shared_ptr<const SamplerPrototype> sampler;
     std::uint32_t samplesPerPixel = 1;
-    const PathLayers* layers = nullptr;   ///< null: none
+    const PathLayers* layers = nullptr;  ///< null: none
 };
 
 /// pbrt's pixel samples, in one thread, as its RayIntegrator takes them.
@@ -49,22 +49,23 @@ class PbrtPixelWorker final : public adapter::PixelWorker {
     Color contributed(const pbrt::SampledSpectrum& radiance, const pbrt::SampledWavelengths& lambda);
 
     PixelRequest request_;
-    const EmcaPathIntegrator* own_;      ///< null: one of pbrt's
+    const EmcaPathIntegrator* own_;  ///< null: one of pbrt's
     std::shared_ptr<OwnFilm> film_;
-    OwnFilm single_;                     ///< for the colour of one sample
+    OwnFilm single_;  ///< for the colour of one sample
     pstd::pmr::monotonic_buffer_resource memory_;
     pbrt::Sampler sampler_;
     pbrt::ScratchBuffer scratch_;
     std::optional<SpectrumTally> tally_;            ///< of our integrator
     std::optional<emca::PathTally> observedTally_;  ///< of pbrt's
-    double weightScale_ = 1;             ///< number of samples over the sum of their filter weights
+    double weightScale_ = 1;                        ///< number of samples over the sum of their filter weights
 };
 
 /// Radiance at any place, for the light probe.
 class PbrtProbeWorker final : public adapter::ProbeWorker {
   public:
     /// \param maximumDepth  scattering events; less than 0: the integrator's
-    PbrtProbeWorker(const LoadedScene& scene, const pbrt::RayIntegrator& integrator, int maximumDepth, std::uint64_t seed);
+    PbrtProbeWorker(const LoadedScene& scene, const pbrt::RayIntegrator& integrator, int maximumDepth,
+                    std::uint64_t seed);
     Color radiance(Vec3f origin, Vec3f direction, Pixel pixel, std::uint32_t sample) override;
 
   private:

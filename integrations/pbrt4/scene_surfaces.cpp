@@ -39,7 +39,8 @@ LocalMesh trianglesOf(const pbrt::TriangleMesh& mesh) {
     out.triangles.reserve(std::size_t(mesh.nTriangles));
     for (int i = 0; i < mesh.nTriangles; ++i) {
         const int* v = &mesh.vertexIndices[3 * i];
-        Triangle t{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1]), static_cast<std::uint32_t>(v[2])};
+        Triangle t{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1]),
+                   static_cast<std::uint32_t>(v[2])};
         bool back = mesh.reverseOrientation != mesh.transformSwapsHandedness;
         if (mesh.n) {  // shading normals say which side is the front
             const pbrt::Vector3f normal = Cross(mesh.p[v[1]] - mesh.p[v[0]], mesh.p[v[2]] - mesh.p[v[0]]);
@@ -68,10 +69,10 @@ bool withQuadric(const pbrt::Shape& shape, const auto& use) {
 /// What becomes one mesh wherever it is placed: a triangle mesh, the patches of a mesh, a quadric, or all curves of one
 /// material (hair has a hundred thousand).
 struct Group {
-    const void* key;          ///< ShapeSources::wholeOf its first shape
-    pbrt::Shape shape;        ///< that one
+    const void* key;    ///< ShapeSources::wholeOf its first shape
+    pbrt::Shape shape;  ///< that one
     pbrt::Material material;
-    pbrt::Light light;        ///< its light; null if it emits nothing
+    pbrt::Light light;  ///< its light; null if it emits nothing
     const ShapeSource* source;
     std::vector<const pbrt::CurveCommon*> curves;
     LocalMesh local;
@@ -102,7 +103,9 @@ PlaceKey keyOf(const Group& group, const HitChain& chain) {
 }
 struct PlaceHash {
     std::size_t operator()(const PlaceKey& key) const {
-        const auto mix = [](std::size_t h, const void* p) { return (h ^ reinterpret_cast<std::size_t>(p)) * 0x9e3779b97f4a7c15ull; };
+        const auto mix = [](std::size_t h, const void* p) {
+            return (h ^ reinterpret_cast<std::size_t>(p)) * 0x9e3779b97f4a7c15ull;
+        };
         return mix(mix(mix(0, key.group), key.outer), key.inner) >> 7;
     }
 };
@@ -114,7 +117,8 @@ auto order(const Group& group, const Placed& placed) {
     std::array<float, 16> matrix;
     for (int i = 0; i < 16; ++i) matrix[std::size_t(i)] = placed.renderFromGroup.GetMatrix()[i / 4][i % 4];
     std::array<float, 3> first{};
-    if (!group.local.positions.empty()) first = {group.local.positions[0].x, group.local.positions[0].y, group.local.positions[0].z};
+    if (!group.local.positions.empty())
+        first = {group.local.positions[0].x, group.local.positions[0].y, group.local.positions[0].z};
     return std::tuple(std::string_view(source.sceneFile), source.line, source.column, group.shape.Tag(),
                       group.local.triangles.size(), first, matrix);
 }
@@ -152,7 +156,8 @@ class Preview {
     Color reflectance(const Group& group) {
         const Color grey(0.5f);
         if (!group.material || group.shape.Is<pbrt::Curve>()) return grey;
-        if (const auto known = reflectances_.find(group.material.ptr()); known != reflectances_.end()) return known->second;
+        if (const auto known = reflectances_.find(group.material.ptr()); known != reflectances_.end())
+            return known->second;
         const auto point = group.shape.Sample(pbrt::Point2f(0.4f, 0.3f));
         if (!point) return grey;
         const pbrt::Vector3f outside(point->intr.n);
@@ -206,7 +211,8 @@ class Preview {
 
 }  // namespace
 
-MaterialNames::MaterialNames(const std::map<std::string, pbrt::Material>& named, const std::vector<pbrt::Material>& unnamed) {
+MaterialNames::MaterialNames(const std::map<std::string, pbrt::Material>& named,
+                             const std::vector<pbrt::Material>& unnamed) {
     for (const auto& [name, material] : named) names_.emplace(material.ptr(), name);
     for (std::size_t i = 0; i < unnamed.size(); ++i) {
         if (unnamed[i]) names_.emplace(unnamed[i].ptr(), typeName(unnamed[i]) + (" " + std::to_string(i)));
@@ -269,7 +275,10 @@ struct SceneSurfaces::Impl {
             }
         }
         if (index == groups_.size()) {
-            groups_.push_back({.key = whole, .shape = leaf.shape, .material = leaf.material, .light = leaf.areaLight,
+            groups_.push_back({.key = whole,
+                               .shape = leaf.shape,
+                               .material = leaf.material,
+                               .light = leaf.areaLight,
                                .source = scene_.sources.find(leaf.shape)});
             content.groups.push_back(index);
         }
@@ -278,13 +287,15 @@ struct SceneSurfaces::Impl {
     }
 
     void expand(std::uint32_t content, const pbrt::Transform& renderFromContent, const HitChain& chain) {
-        for (const std::uint32_t group : contentList_[content].groups) placed_.push_back({group, renderFromContent, chain});
+        for (const std::uint32_t group : contentList_[content].groups)
+            placed_.push_back({group, renderFromContent, chain});
         if (chain.instances[1]) return;  // pbrt has no deeper ones
         const std::vector<pbrt::Primitive> placements = contentList_[content].placements;
         for (const pbrt::Primitive& placement : placements) {
             HitChain inner = chain;
             (inner.instances[0] ? inner.instances[1] : inner.instances[0]) = placement;
-            expand(contentOf(inside::placed(placement)), renderFromContent * inside::transform(placement, shutterOpen_), inner);
+            expand(contentOf(inside::placed(placement)), renderFromContent * inside::transform(placement, shutterOpen_),
+                   inner);
         }
     }
 
@@ -295,7 +306,8 @@ struct SceneSurfaces::Impl {
             const pbrt::BilinearPatchMesh& mesh = *inside::patch(*patch).mesh;
             for (int i = 0; i < mesh.nPatches; ++i) {
                 const PatchCorners corners = cornersOf(mesh, i);
-                group.firstFaces.push_back(group.local.add(gridOfPatch(mesh, corners), [&](Vec2f uv) { return corners.at(uv); }));
+                group.firstFaces.push_back(
+                    group.local.add(gridOfPatch(mesh, corners), [&](Vec2f uv) { return corners.at(uv); }));
             }
         } else if (group.shape.Is<pbrt::Curve>()) {
             for (const pbrt::CurveCommon* curve : group.curves) {
@@ -327,10 +339,14 @@ struct SceneSurfaces::Impl {
                 leftOut_ += group.local.triangles.size();
                 continue;
             }
-            Mesh mesh{.name = nameOf(group), .material = std::string(scene_.materials.of(group.material)),
-                      .triangles = group.local.triangles, .diffuse = preview.reflectance(group), .emission = preview.emission(group)};
+            Mesh mesh{.name = nameOf(group),
+                      .material = std::string(scene_.materials.of(group.material)),
+                      .triangles = group.local.triangles,
+                      .diffuse = preview.reflectance(group),
+                      .emission = preview.emission(group)};
             mesh.positions.reserve(group.local.positions.size());
-            for (const pbrt::Point3f p : group.local.positions) mesh.positions.push_back(world.point(placed.renderFromGroup(p)));
+            for (const pbrt::Point3f p : group.local.positions)
+                mesh.positions.push_back(world.point(placed.renderFromGroup(p)));
             // A mirrored instance keeps its front where it was.
             if (placed.renderFromGroup.SwapsHandedness() != world.worldFromRender().SwapsHandedness()) {
                 for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -364,18 +380,21 @@ struct SceneSurfaces::Impl {
         if (const auto* patch = shape.CastOrNullptr<pbrt::BilinearPatch>()) {
             const inside::PatchOf at = inside::patch(*patch);
             const PatchCorners corners = cornersOf(*at.mesh, at.patch);
-            return static_cast<std::int32_t>(group.firstFaces[std::size_t(at.patch)]) + gridOfPatch(*at.mesh, corners).face(corners.parameterOf(p));
+            return static_cast<std::int32_t>(group.firstFaces[std::size_t(at.patch)]) +
+                   gridOfPatch(*at.mesh, corners).face(corners.parameterOf(p));
         }
         if (const auto* segment = shape.CastOrNullptr<pbrt::Curve>()) {
             const pbrt::CurveCommon* curve = inside::curve(*segment);
-            return static_cast<std::int32_t>(curveFace_.at(curve)) + CurveTube::grid().face(CurveTube(*curve).parameterOf(uv.x, p));
+            return static_cast<std::int32_t>(curveFace_.at(curve)) +
+                   CurveTube::grid().face(CurveTube(*curve).parameterOf(uv.x, p));
         }
         std::int32_t face = -1;
         withQuadric(shape, [&](const auto& quadric) { face = gridOf(quadric).face({uv.x, uv.y}); });
         return face;
     }
 
-    SurfacePlace place(const pbrt::Shape& shape, const HitChain& chain, pbrt::Point3f p, pbrt::Point2f uv, pbrt::Float time) const {
+    SurfacePlace place(const pbrt::Shape& shape, const HitChain& chain, pbrt::Point3f p, pbrt::Point2f uv,
+                       pbrt::Float time) const {
         const auto group = groupOf_.find(ShapeSources::wholeOf(shape));
         if (group == groupOf_.end()) return {};
         const Group& of = groups_[group->second];
@@ -414,9 +433,12 @@ SceneSurfaces::~SceneSurfaces() = default;
 const std::vector<Mesh>& SceneSurfaces::meshes() const { return impl_->meshes_; }
 std::size_t SceneSurfaces::trianglesLeftOut() const { return impl_->leftOut_; }
 bool SceneSurfaces::anyScatters() const {
-    return std::any_of(impl_->groups_.begin(), impl_->groups_.end(), [](const Group& group) { return bool(group.material); });
+    return std::any_of(impl_->groups_.begin(), impl_->groups_.end(),
+                       [](const Group& group) { return bool(group.material); });
 }
-SurfacePlace SceneSurfaces::at(const HitChain& chain, const pbrt::SurfaceInteraction& at) const { return impl_->at(chain, at); }
+SurfacePlace SceneSurfaces::at(const HitChain& chain, const pbrt::SurfaceInteraction& at) const {
+    return impl_->at(chain, at);
+}
 
 SurfacePlace SceneSurfaces::onLight(pbrt::Light light, const pbrt::Interaction& point) const {
     const auto shape = impl_->shapeOfLight_.find(light.ptr());

@@ -33,8 +33,8 @@ struct SurfacePlace {
     bool known() const { return mesh >= 0; }
 };
 
-/// The scene's shapes as triangles, and the triangle of a hit. The order of meshes is that of the scene's files, whatever
-/// order pbrt's threads made the shapes in; instances stand behind each other. Immutable: any thread may ask.
+/// The scene's shapes as triangles, and the triangle of a hit. The order of meshes is that of the scene's files,
+/// whatever order pbrt's threads made the shapes in; instances stand behind each other. Immutable: any thread may ask.
 class SceneSurfaces {
   public:
     struct Scene {

@@ -18,11 +18,13 @@ constinit ShapeSources* listener = nullptr;  // set and cleared while pbrt makes
 pstd::vector<pbrt::Shape> realCreate(const std::string& name, const pbrt::Transform* renderFromObject,
                                      const pbrt::Transform* objectFromRender, bool reverseOrientation,
                                      const pbrt::ParameterDictionary& parameters, const Textures& textures,
-                                     const pbrt::FileLoc* where, pbrt::Allocator allocator) asm("__real_" EMCA_PBRT_CREATE_SHAPE);
+                                     const pbrt::FileLoc* where,
+                                     pbrt::Allocator allocator) asm("__real_" EMCA_PBRT_CREATE_SHAPE);
 pstd::vector<pbrt::Shape> wrapCreate(const std::string& name, const pbrt::Transform* renderFromObject,
                                      const pbrt::Transform* objectFromRender, bool reverseOrientation,
                                      const pbrt::ParameterDictionary& parameters, const Textures& textures,
-                                     const pbrt::FileLoc* where, pbrt::Allocator allocator) asm("__wrap_" EMCA_PBRT_CREATE_SHAPE);
+                                     const pbrt::FileLoc* where,
+                                     pbrt::Allocator allocator) asm("__wrap_" EMCA_PBRT_CREATE_SHAPE);
 
 struct ShapeSources::Impl {
     std::mutex mutex;
@@ -32,7 +34,8 @@ struct ShapeSources::Impl {
 struct WrappedShapes {
     static void made(ShapeSources& sources, const std::string& type, const pbrt::ParameterDictionary& parameters,
                      const pbrt::FileLoc& where, const pstd::vector<pbrt::Shape>& shapes) {
-        ShapeSource source{.type = type, .sceneFile = std::string(where.filename), .line = where.line, .column = where.column};
+        ShapeSource source{
+            .type = type, .sceneFile = std::string(where.filename), .line = where.line, .column = where.column};
         if (type == "plymesh") source.plyFile = parameters.GetOneString("filename", "");
         const std::scoped_lock lock(sources.impl_->mutex);
         const void* last = nullptr;
@@ -48,7 +51,8 @@ pstd::vector<pbrt::Shape> wrapCreate(const std::string& name, const pbrt::Transf
                                      const pbrt::Transform* objectFromRender, bool reverseOrientation,
                                      const pbrt::ParameterDictionary& parameters, const Textures& textures,
                                      const pbrt::FileLoc* where, pbrt::Allocator allocator) {
-    auto shapes = realCreate(name, renderFromObject, objectFromRender, reverseOrientation, parameters, textures, where, allocator);
+    auto shapes = realCreate(name, renderFromObject, objectFromRender, reverseOrientation, parameters, textures, where,
+                             allocator);
     if (listener != nullptr && where != nullptr) WrappedShapes::made(*listener, name, parameters, *where, shapes);
     return shapes;
 }

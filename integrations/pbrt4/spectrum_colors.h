@@ -17,8 +17,8 @@ class SpectrumColors {
     }
 
     /// A factor without unit, such as a throughput: the mean of its values, weighted by how much each wavelength has to
-    /// do with X, Y and Z. What is the same for all wavelengths is grey in every sample; products are products of colours
-    /// only roughly.
+    /// do with X, Y and Z. What is the same for all wavelengths is grey in every sample; products are products of
+    /// colours only roughly.
     Color factor(const pbrt::SampledSpectrum& spectrum, const pbrt::SampledWavelengths& lambda) const;
 
     /// A colour of the film.

@@ -8,8 +8,8 @@
 namespace emca::pbrt4 {
 
 /// What one thread's paths add to the path layers: as emca::PathTally, but radiance is gathered from the path's end in
-/// spectra. With four wavelengths a sample's colour is noise, and the product of two noisy colours is on average not the
-/// colour of the product. Belongs to one thread and one render; changes nothing about the path.
+/// spectra. With four wavelengths a sample's colour is noise, and the product of two noisy colours is on average not
+/// the colour of the product. Belongs to one thread and one render; changes nothing about the path.
 class SpectrumTally {
   public:
     using Spectrum = pbrt::SampledSpectrum;
@@ -30,16 +30,22 @@ class SpectrumTally {
     bool wantsThroughput() const { return bool(layers_.throughput); }
     void throughput(Color throughput) { layers_.throughput.add(here_, throughput); }
     /// Light that the path met here, as it arrives at the vertex before: emission times MIS weight.
-    void hit(const Spectrum& radiance) { if (!vertices_.empty()) vertices_.back().hit += radiance; }
+    void hit(const Spectrum& radiance) {
+        if (!vertices_.empty()) vertices_.back().hit += radiance;
+    }
     bool wantsNextEvents() const { return bool(layers_.nextEvents); }
     /// A point on a light was chosen, visible or not.
     void nextEvent(const SurfaceLocation& light) { layers_.nextEvents.add(locate(light)); }
     /// MIS weight of light sampling here, whether or not the light is visible.
     void misWeight(float weight) { layers_.misWeight.add(here_, weight); }
     /// Light that light sampling found, as it is reflected here towards the path.
-    void direct(const Spectrum& radiance) { if (!vertices_.empty()) vertices_.back().direct += radiance; }
+    void direct(const Spectrum& radiance) {
+        if (!vertices_.empty()) vertices_.back().direct += radiance;
+    }
     /// The path goes on. \param factor  BSDF times cosine over density, over the probability to survive
-    void scattered(const Spectrum& factor) { if (!vertices_.empty()) vertices_.back().factor = factor; }
+    void scattered(const Spectrum& factor) {
+        if (!vertices_.empty()) vertices_.back().factor = factor;
+    }
     void invalidDirection() { layers_.invalidDirections.add(here_); }
     void rouletteEnd() { layers_.roulette.add(here_); }
 
@@ -51,7 +57,8 @@ class SpectrumTally {
             const Vertex& vertex = vertices_[i];
             const Spectrum reflected = vertex.direct + vertex.factor * arriving;
             if (layers_.reflected) layers_.reflected.add(vertex.place, colors.radiance(reflected, lambda));
-            if (layers_.contribution) layers_.contribution.add(vertex.place, colors.radiance(vertex.throughput * reflected, lambda));
+            if (layers_.contribution)
+                layers_.contribution.add(vertex.place, colors.radiance(vertex.throughput * reflected, lambda));
             layers_.pathDepth.add(vertex.place, depth);
             arriving = vertex.hit + reflected;
         }
@@ -63,7 +70,9 @@ class SpectrumTally {
         SurfacePoint place;
         Spectrum throughput, hit{0}, direct{0}, factor{0};
     };
-    void begin(const Spectrum& throughput) { if (layers_.perPath) vertices_.push_back({here_, throughput}); }
+    void begin(const Spectrum& throughput) {
+        if (layers_.perPath) vertices_.push_back({here_, throughput});
+    }
     SurfacePoint locate(const SurfaceLocation& at) {
         if (at.mesh < 0 || at.face < 0) return {};
         return cursor_.locate(std::uint32_t(at.mesh), std::uint32_t(at.face), at.position);

@@ -15,8 +15,8 @@ std::uint32_t cellsAround(const inside::Quadric& shape) {
     return std::max(3u, static_cast<std::uint32_t>(std::ceil(float(kAround) * shape.phiMax / kTwoPi)));
 }
 
-/// Interactions have their normal along dp/du x dp/dv, turned where the scene says ReverseOrientation; that and a mirroring
-/// transform cancel as often as in pbrt.
+/// Interactions have their normal along dp/du x dp/dv, turned where the scene says ReverseOrientation; that and a
+/// mirroring transform cancel as often as in pbrt.
 bool flipped(const inside::Quadric& shape) { return shape.reverseOrientation; }
 
 pbrt::Point3f around(const inside::Quadric& shape, float u, float radius, float z) {
@@ -28,8 +28,11 @@ pbrt::Point3f around(const inside::Quadric& shape, float u, float radius, float 
 
 adapter::ParametricMesh gridOf(const pbrt::Sphere& sphere) {
     const inside::Quadric q = inside::quadric(sphere);
-    return {.columns = cellsAround(q), .rows = kAlong, .firstRowIsPoint = q.zMin <= -q.radius,
-            .lastRowIsPoint = q.zMax >= q.radius, .flipped = flipped(q)};
+    return {.columns = cellsAround(q),
+            .rows = kAlong,
+            .firstRowIsPoint = q.zMin <= -q.radius,
+            .lastRowIsPoint = q.zMax >= q.radius,
+            .flipped = flipped(q)};
 }
 
 adapter::ParametricMesh gridOf(const pbrt::Disk& disk) {
@@ -93,7 +96,8 @@ PatchCorners cornersOf(const pbrt::BilinearPatchMesh& mesh, int patch) {
 }
 
 adapter::ParametricMesh gridOf(const PatchCorners& patch) {
-    return patch.isPlane() ? adapter::ParametricMesh{} : adapter::ParametricMesh{.columns = kPatchCells, .rows = kPatchCells};
+    return patch.isPlane() ? adapter::ParametricMesh{}
+                           : adapter::ParametricMesh{.columns = kPatchCells, .rows = kPatchCells};
 }
 
 CurveTube::Place CurveTube::place(float u) const {
@@ -108,10 +112,11 @@ CurveTube::Place CurveTube::place(float u) const {
     // One axis for the whole curve, so that the tube does not twist.
     const pbrt::Vector3f whole = Abs(c[3] - c[0]);
     const pbrt::Vector3f axis = whole.x <= whole.y && whole.x <= whole.z ? pbrt::Vector3f(1, 0, 0)
-                                : whole.y <= whole.z                    ? pbrt::Vector3f(0, 1, 0)
-                                                                        : pbrt::Vector3f(0, 0, 1);
+                                : whole.y <= whole.z                     ? pbrt::Vector3f(0, 1, 0)
+                                                                         : pbrt::Vector3f(0, 0, 1);
     pbrt::Vector3f side = Cross(axis, along);
-    side = LengthSquared(side) > 1e-12f ? Normalize(side) : Normalize(Cross(pbrt::Vector3f(along.y, along.z, along.x), along));
+    side = LengthSquared(side) > 1e-12f ? Normalize(side)
+                                        : Normalize(Cross(pbrt::Vector3f(along.y, along.z, along.x), along));
     return {centre, side, Cross(along, side), 0.5f * (s * curve_->width[0] + t * curve_->width[1])};
 }
 
@@ -123,7 +128,7 @@ pbrt::Point3f CurveTube::at(Vec2f uv) const {
 
 Vec2f CurveTube::parameterOf(float u, pbrt::Point3f hit) const {
     const Place p = place(std::clamp(u, 0.f, 1.f));
-    const pbrt::Vector3f from = (*curve_->objectFromRender)(hit) - p.centre;
+    const pbrt::Vector3f from = (*curve_->objectFromRender)(hit)-p.centre;
     const float angle = std::atan2(Dot(from, p.up), Dot(from, p.side));
     return {u, angle < 0 ? angle / kTwoPi + 1 : angle / kTwoPi};
 }

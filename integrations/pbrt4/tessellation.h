@@ -20,7 +20,9 @@ class WorldSpace {
 
   private:
     template <typename T>
-    static Vec3f toVec(const T& p) { return {float(p.x), float(p.y), float(p.z)}; }
+    static Vec3f toVec(const T& p) {
+        return {float(p.x), float(p.y), float(p.z)};
+    }
 
     pbrt::Transform worldFromRender_, renderFromWorld_;
 };
@@ -38,8 +40,8 @@ pbrt::Point3f pointAt(const pbrt::Cylinder& cylinder, Vec2f uv);
 struct PatchCorners {
     pbrt::Point3f p00, p10, p01, p11;
     pbrt::Point3f at(Vec2f uv) const;
-    /// The parameter of the point of the patch nearest to p, for points that lie on it within rounding. pbrt's own (u, v)
-    /// of an interaction may be texture coordinates instead.
+    /// The parameter of the point of the patch nearest to p, for points that lie on it within rounding. pbrt's own (u,
+    /// v) of an interaction may be texture coordinates instead.
     Vec2f parameterOf(pbrt::Point3f p) const;
     bool isPlane() const;
 };
@@ -52,13 +54,17 @@ adapter::ParametricMesh gridOf(const PatchCorners& patch);
 class CurveTube {
   public:
     explicit CurveTube(const pbrt::CurveCommon& curve) : curve_(&curve) {}
-    pbrt::Point3f at(Vec2f uv) const;                           ///< render space
+    pbrt::Point3f at(Vec2f uv) const;  ///< render space
     /// Of a hit at `u` along the curve, at `p` in render space.
     Vec2f parameterOf(float u, pbrt::Point3f p) const;
     static adapter::ParametricMesh grid() { return {.columns = 8, .rows = 4}; }
 
   private:
-    struct Place { pbrt::Point3f centre; pbrt::Vector3f side, up; float radius; };
+    struct Place {
+        pbrt::Point3f centre;
+        pbrt::Vector3f side, up;
+        float radius;
+    };
     Place place(float u) const;  ///< in the curve's own space
     const pbrt::CurveCommon* curve_;
 };
