@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The pictures of docs/integrations/: of the explorer on a renderer that its page told how to serve.
 #   scripts/integration-figures.sh NAME HOST:PORT
-# NAME: mitsuba06 (emcapath on veach-ajar), pbrt4 (emcapath on integrations/pbrt4/scenes/room.pbrt), lajolla and
+# NAME: mitsuba06 (emcapath on veach-ajar, 320 x 180), pbrt4 (emcapath on integrations/pbrt4/scenes/room.pbrt), lajolla and
 # lajolla-emcapath (these integrators on its scenes/cbox/cbox.xml), nori, emca2021. EMCA_BUILD_DIR: a build (default: build/release).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -33,7 +33,7 @@ probe=(--front plugin-light-probe,surfaces)
 case $name in
   mitsuba06)
     picture mitsuba06 --spp 16 --pixel firefly
-    striking mitsuba06-layer-and-probe --spp 256 --pixel 250,160 --layers "reflected radiance" --layer-exposure -2 "${probe[@]}" ;;
+    striking mitsuba06-layer-and-probe --spp 256 --pixel 125,80 --layers "reflected radiance" --layer-exposure -2 "${probe[@]}" ;;
   pbrt4)
     striking pbrt4 --spp 64 --pixel 84,120 --layers "reflected radiance,next-event density,throughput" --layer-exposure 1 "${probe[@]}" ;;
   lajolla)
