@@ -42,7 +42,8 @@ case $name in
   lajolla-emcapath)
     striking lajolla-layer-and-probe --spp 64 --pixel 330,390 --layers "reflected radiance" --layer-exposure 2 "${probe[@]}" ;;
   nori)
-    picture nori --spp 8 --pixel 100,90 --layers "intersection density,shadowed tests" --show-layer "shadowed tests" --front surfaces ;;
+    picture nori --spp 8 --pixel 100,90 --layers "intersection density,shadowed tests" --show-layer "shadowed tests" --front surfaces
+    striking nori-layer-and-probe --spp 1 --pixel 170,100 --layers "shadowed tests" "${probe[@]}" ;;
   emca2021)
     picture emca2021 --spp 32 --pixel firefly --layers all --show-layer "published heat map (number)" --layer-map viridis \
       --layer-percentiles 2,90 --eye 0.35,1.05,4.3 --target 0,1,0 ;;
