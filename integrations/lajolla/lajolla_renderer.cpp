@@ -80,7 +80,7 @@ Result<adapter::PixelLoop> LajollaRenderer::loopFor(const RenderSettings& settin
     loop.samplesPerPixel = settings.samplesPerPixel > 0 ? settings.samplesPerPixel : samplesPerPixel();
     loop.threads = options_.threads;
     loop.makeWorker = [scene = scene_, integrator = *integrator, seed](SurfaceRecorder* surface) -> Result<std::unique_ptr<adapter::PixelWorker>> {
-        return std::unique_ptr<adapter::PixelWorker>(new Worker(*scene, integrator, seed, surface));
+        return std::make_unique<Worker>(*scene, integrator, seed, surface);
     };
     return loop;
 }
@@ -108,7 +108,7 @@ std::shared_ptr<ServerTool> LajollaRenderer::lightProbes() const {
             return Error{ErrorCode::invalidArgument,
                          "Asked for a light probe of another depth: lajolla's " + integrator->name + " has the scene's alone; ask for emcapath."};
         }
-        return std::unique_ptr<adapter::ProbeWorker>(new Prober(*scene, *integrator, request.seed, request.maximumDepth));
+        return std::make_unique<Prober>(*scene, *integrator, request.seed, request.maximumDepth);
     };
     return std::make_shared<adapter::LightProbeTool>(make, static_cast<float>(scene_->scene().bounds.radius) * 1e-4f, options_.threads);
 }

@@ -123,7 +123,7 @@ Result<adapter::PixelLoop> NoriRenderer::loopFor(const RenderSettings& settings)
     loop.threads = options_.threads;
     loop.makeWorker = [scene = scene_, seed = settings.hasSeed ? settings.seed : options_.seed,
                        samples = loop.samplesPerPixel](SurfaceRecorder* surface) -> Result<std::unique_ptr<adapter::PixelWorker>> {
-        return std::unique_ptr<adapter::PixelWorker>(new Worker(*scene, seed, samples, surface));
+        return std::make_unique<Worker>(*scene, seed, samples, surface);
     };
     return loop;
 }
@@ -151,7 +151,7 @@ std::shared_ptr<ServerTool> NoriRenderer::lightProbes() const {
         if (request.maximumDepth != 0) {
             return Error{ErrorCode::invalidArgument, "Asked for a light probe of another depth: Nori's integrators have their own alone."};
         }
-        return std::unique_ptr<adapter::ProbeWorker>(new Prober(*scene, request.seed, request.samplesPerPixel));
+        return std::make_unique<Prober>(*scene, request.seed, request.samplesPerPixel);
     };
     return std::make_shared<adapter::LightProbeTool>(make, scene_->radius() * 1e-4f, options_.threads);
 }

@@ -37,7 +37,7 @@ class TestWorker final : public ProbeWorker {
 LightProbeTool toolWith(unsigned threads) {
     return LightProbeTool([](const probe::LightProbeRequest& request) -> Result<std::unique_ptr<ProbeWorker>> {
         if (!request.integrator.empty()) return Error{ErrorCode::invalidArgument, "There is one integrator."};
-        return std::unique_ptr<ProbeWorker>(new TestWorker(request.seed));
+        return std::make_unique<TestWorker>(request.seed);
     }, 0.25f, threads);
 }
 

@@ -51,7 +51,7 @@ class NoiseWorker : public PixelWorker {
 
 template <typename Worker>
 PixelLoop loopOf(std::uint32_t width, std::uint32_t height, std::uint32_t samples, unsigned threads) {
-    return {width, height, samples, threads, 16, [](SurfaceRecorder*) -> Result<std::unique_ptr<PixelWorker>> { return std::unique_ptr<PixelWorker>(new Worker); }};
+    return {width, height, samples, threads, 16, [](SurfaceRecorder*) -> Result<std::unique_ptr<PixelWorker>> { return std::make_unique<Worker>(); }};
 }
 
 bool equalBits(const Image& a, const Image& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0; }
@@ -161,7 +161,7 @@ TEST(PixelLoop, LayersGetEverySampleOnce) {
     SurfaceRecorder surface(meshes);
     ASSERT_TRUE(surface.addLayer({"density", LayerKind::density, "", ""}));
     PixelLoop loop = loopOf<NoiseWorker>(30, 20, 11, 3);
-    loop.makeWorker = [](SurfaceRecorder* s) -> Result<std::unique_ptr<PixelWorker>> { return std::unique_ptr<PixelWorker>(new SurfaceWorker(*s)); };
+    loop.makeWorker = [](SurfaceRecorder* s) -> Result<std::unique_ptr<PixelWorker>> { return std::make_unique<SurfaceWorker>(*s); };
     ASSERT_TRUE(renderImage(loop, monitor, &surface));
     (void)surface.finish();
     EXPECT_EQ(surface.counts().points, 30u * 20u * 11u);

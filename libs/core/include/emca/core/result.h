@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cassert>
+#include <concepts>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -46,6 +48,11 @@ class [[nodiscard]] Result {
   public:
     Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
     Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
+
+    /// A pointer to a derived class, where T points to its base: `return std::make_unique<MyWorker>();`.
+    template <typename Derived>
+        requires(!std::same_as<std::unique_ptr<Derived>, T> && std::convertible_to<std::unique_ptr<Derived>, T>)
+    Result(std::unique_ptr<Derived> value) : content_(std::in_place_index<0>, std::move(value)) {}
 
     bool ok() const { return content_.index() == 0; }
     explicit operator bool() const { return ok(); }
