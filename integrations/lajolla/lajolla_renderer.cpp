@@ -85,21 +85,6 @@ Result<adapter::PixelLoop> LajollaRenderer::loopFor(const RenderSettings& settin
     return loop;
 }
 
-Result<RenderedImage> LajollaRenderer::renderImage(const RenderSettings& settings, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    return loop ? adapter::renderImage(*loop, monitor) : loop.error();
-}
-
-Result<RenderedImage> LajollaRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    return loop ? adapter::renderImage(*loop, monitor, &surface) : loop.error();
-}
-
-Result<Color> LajollaRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    return loop ? adapter::renderPixel(*loop, pixel, monitor) : loop.error();
-}
-
 std::shared_ptr<ServerTool> LajollaRenderer::lightProbes() const {
     const auto make = [scene = scene_, options = options_](const probe::LightProbeRequest& request) -> Result<std::unique_ptr<adapter::ProbeWorker>> {
         const auto integrator = findIntegrator(request.integrator.empty() ? options.integrator : request.integrator, scene->scene());

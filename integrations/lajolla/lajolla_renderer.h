@@ -5,8 +5,7 @@
 #include <string>
 
 #include "emca/adapter/light_probe_tool.h"
-#include "emca/adapter/pixel_loop.h"
-#include "emca/server/renderer.h"
+#include "emca/adapter/pixel_renderer.h"
 #include "integrators.h"
 #include "loaded_scene.h"
 
@@ -22,7 +21,7 @@ struct LajollaOptions {
 
 /// Offers a scene of lajolla to EMCA's server. May be called from several threads at once, as long as the person's
 /// integrator keeps nothing between paths.
-class LajollaRenderer final : public Renderer {
+class LajollaRenderer final : public adapter::PixelRenderer {
   public:
     LajollaRenderer(std::shared_ptr<const LoadedScene> scene, LajollaOptions options);
 
@@ -30,15 +29,12 @@ class LajollaRenderer final : public Renderer {
     Camera camera() const override { return scene_->camera(); }
     std::vector<Mesh> meshes() const override { return scene_->meshes(); }
     std::vector<LayerDescription> surfaceLayers() const override { return lajolla::surfaceLayers(); }
-    Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
-    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) override;
-    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) override;
 
     /// Light probes of the same scene, with the same integrators.
     std::shared_ptr<ServerTool> lightProbes() const;
 
   private:
-    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const;
+    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const override;
     std::uint32_t samplesPerPixel() const;
 
     std::shared_ptr<const LoadedScene> scene_;

@@ -189,25 +189,4 @@ Result<adapter::PixelLoop> MitsubaRenderer::loopFor(const RenderSettings& settin
     return loop;
 }
 
-Result<RenderedImage> MitsubaRenderer::renderImage(const RenderSettings& settings, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    if (!loop) return loop.error();
-    return adapter::renderImage(*loop, monitor);
-}
-
-Result<RenderedImage> MitsubaRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
-                                                             RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    if (!loop) return loop.error();
-    return adapter::renderImage(*loop, monitor, &surface);
-}
-
-Result<Color> MitsubaRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&,
-                                           RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    if (!loop) return loop.error();
-    // The server opened the RecordScope of this thread, and the whole pixel is rendered in it.
-    return adapter::renderPixel(*loop, pixel, monitor);
-}
-
 }  // namespace emca::mitsuba06

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emca/adapter/pixel_loop.h"
-#include "emca/server/renderer.h"
+#include "emca/adapter/pixel_renderer.h"
 #include "mitsuba_headers.h"
 #include "scene_shapes.h"
 #include "thread_registration.h"
@@ -15,7 +14,7 @@ namespace emca::mitsuba06 {
 
 /// A scene that Mitsuba has loaded, as EMCA's renderer. A pixel is the mean of its own samples, as Mitsuba's film
 /// computes it with a box filter. May be called from several threads at once.
-class MitsubaRenderer final : public Renderer {
+class MitsubaRenderer final : public adapter::PixelRenderer {
   public:
     /// Called in one of Mitsuba's threads. Scene and integrator must outlive it.
     MitsubaRenderer(mts::Scene& scene, const TracedIntegrator& integrator);
@@ -24,11 +23,6 @@ class MitsubaRenderer final : public Renderer {
     Camera camera() const override;
     std::vector<Mesh> meshes() const override { return shapes_.meshes(); }
     std::vector<LayerDescription> surfaceLayers() const override { return integrator_.layers(); }
-    Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
-    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface,
-                                                RequestMonitor& monitor) override;
-    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording,
-                              RequestMonitor& monitor) override;
 
     const mts::Scene& scene() const { return scene_; }
     const TracedIntegrator& integrator() const { return integrator_; }
@@ -48,7 +42,7 @@ class MitsubaRenderer final : public Renderer {
     void say(mts::ELogLevel level, const std::string& text) const;
 
   private:
-    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const;
+    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const override;
     mts::ref<mts::Sampler> createSampler(const std::string& name, const RenderSettings& settings) const;
 
     mts::Scene& scene_;

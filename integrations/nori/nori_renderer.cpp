@@ -5,7 +5,6 @@
 #include <string>
 
 #include "emca/adapter/light_probe_tool.h"
-#include "emca/adapter/pixel_loop.h"
 #include "emca/core/seed_map.h"
 #include "seeded_sampler.h"
 
@@ -126,21 +125,6 @@ Result<adapter::PixelLoop> NoriRenderer::loopFor(const RenderSettings& settings)
         return std::make_unique<Worker>(*scene, seed, samples, surface);
     };
     return loop;
-}
-
-Result<RenderedImage> NoriRenderer::renderImage(const RenderSettings& settings, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    return loop ? adapter::renderImage(*loop, monitor) : loop.error();
-}
-
-Result<RenderedImage> NoriRenderer::renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    return loop ? adapter::renderImage(*loop, monitor, &surface) : loop.error();
-}
-
-Result<Color> NoriRenderer::renderPixel(Pixel pixel, const RenderSettings& settings, Recording&, RequestMonitor& monitor) {
-    const auto loop = loopFor(settings);
-    return loop ? adapter::renderPixel(*loop, pixel, monitor) : loop.error();
 }
 
 std::shared_ptr<ServerTool> NoriRenderer::lightProbes() const {

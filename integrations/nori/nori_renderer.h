@@ -3,13 +3,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "emca/server/renderer.h"
+#include "emca/adapter/pixel_renderer.h"
 #include "emca/server/server_tool.h"
 #include "loaded_scene.h"
-
-namespace emca::adapter {
-struct PixelLoop;
-}
 
 namespace emca::nori_adapter {
 
@@ -22,7 +18,7 @@ struct NoriOptions {
 
 /// Offers a scene of Nori, with the integrator that it names, to EMCA's server. May be called from several threads at once,
 /// as Nori itself calls integrators.
-class NoriRenderer final : public Renderer {
+class NoriRenderer final : public adapter::PixelRenderer {
   public:
     NoriRenderer(std::shared_ptr<const LoadedScene> scene, NoriOptions options) : scene_(std::move(scene)), options_(options) {}
 
@@ -30,15 +26,12 @@ class NoriRenderer final : public Renderer {
     Camera camera() const override { return scene_->camera(); }
     std::vector<Mesh> meshes() const override { return scene_->meshes(); }
     std::vector<LayerDescription> surfaceLayers() const override { return nori_adapter::surfaceLayers(); }
-    Result<RenderedImage> renderImage(const RenderSettings& settings, RequestMonitor& monitor) override;
-    Result<RenderedImage> renderImageWithLayers(const RenderSettings& settings, SurfaceRecorder& surface, RequestMonitor& monitor) override;
-    Result<Color> renderPixel(Pixel pixel, const RenderSettings& settings, Recording& recording, RequestMonitor& monitor) override;
 
     /// Light probes with the scene's integrator.
     std::shared_ptr<ServerTool> lightProbes() const;
 
   private:
-    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const;
+    Result<adapter::PixelLoop> loopFor(const RenderSettings& settings) const override;
     std::uint32_t samplesPerPixel() const;
 
     std::shared_ptr<const LoadedScene> scene_;

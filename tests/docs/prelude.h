@@ -3,7 +3,7 @@
 // What the snippets of the documentation take for granted: a renderer around them, or the models of a viewer.
 #include "emca/adapter/light_probe_tool.h"
 #include "emca/adapter/parametric_mesh.h"
-#include "emca/adapter/pixel_loop.h"
+#include "emca/adapter/pixel_renderer.h"
 #include "emca/adapter/serving.h"
 #include "emca/client/session.h"
 #include "emca/core/seed_map.h"
