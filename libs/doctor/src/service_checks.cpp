@@ -6,17 +6,13 @@
 #include "emca/analysis/format.h"
 #include "emca/core/replay.h"
 #include "emca/doctor/image_checks.h"
+#include "median.h"
 #include "words.h"
 
 namespace emca::doctor {
 namespace {
 
 using analysis::formatDuration;
-
-double medianOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0 : values[values.size() / 2];
-}
 
 bool isSentence(const std::string& text) { return text.size() >= 15 && text.find(' ') != std::string::npos; }
 

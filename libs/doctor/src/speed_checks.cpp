@@ -2,17 +2,13 @@
 
 #include "checks.h"
 #include "emca/analysis/format.h"
+#include "median.h"
 #include "words.h"
 
 namespace emca::doctor {
 namespace {
 
 using analysis::formatDuration;
-
-double medianOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0 : values[values.size() / 2];
-}
 
 /// Replays with every value recorded and with final estimates alone, in turns, so that a busy machine spoils both alike.
 struct ReplayTimes {
