@@ -107,18 +107,18 @@ Finding checkMeshes(const std::vector<Mesh>& meshes, std::uint64_t announcedMesh
     if (facts.triangles == 0)
         finding.complain(Outcome::warning, "There is nothing to show in 3D.", "Return the scene's shapes from meshes(), analytic ones tessellated.");
     if (facts.badIndices > 0)
-        finding.complain(Outcome::failed, fmt::format("{} a vertex that the mesh does not have, first {}.", facts.badIndices == 1 ? "1 triangle uses" : fmt::format("{} triangles use", facts.badIndices), facts.badIndexExample),
+        finding.complain(Outcome::failed, fmt::format("{} a vertex that the mesh does not have, first {}.", counted(facts.badIndices, "triangle uses", "triangles use"), facts.badIndexExample),
                          "Indices of a triangle count from 0 within the positions of their own mesh.");
     if (facts.nonFinitePositions > 0)
-        finding.complain(Outcome::failed, fmt::format("{} NaN or infinite, first {}.", facts.nonFinitePositions == 1 ? "1 vertex is" : fmt::format("{} vertices are", facts.nonFinitePositions), facts.nonFiniteExample),
+        finding.complain(Outcome::failed, fmt::format("{} NaN or infinite, first {}.", counted(facts.nonFinitePositions, "vertex is", "vertices are"), facts.nonFiniteExample),
                          "Look at the transform to world space of that shape.");
     if (facts.degenerate * 5 > facts.triangles && facts.degenerate > 0)
         finding.complain(Outcome::warning, "More than a fifth of all triangles has no area.", "Look at how shapes are tessellated, and whether indices are read in threes.");
     if (facts.empty > 0)
-        finding.complain(Outcome::warning, fmt::format("{} no triangle, first {}.", facts.empty == 1 ? "1 mesh has" : fmt::format("{} meshes have", facts.empty), facts.emptyExample),
+        finding.complain(Outcome::warning, fmt::format("{} no triangle, first {}.", counted(facts.empty, "mesh has", "meshes have"), facts.emptyExample),
                          "Leave shapes that cannot be drawn only if mesh indices need their place.");
     if (facts.duplicates > 0)
-        finding.complain(Outcome::warning, fmt::format("{} there twice: {}.", facts.duplicates == 1 ? "1 mesh is" : fmt::format("{} meshes are", facts.duplicates), facts.duplicateExample),
+        finding.complain(Outcome::warning, fmt::format("{} there twice: {}.", counted(facts.duplicates, "mesh is", "meshes are"), facts.duplicateExample),
                          "Send a shape once, so that one face has one name (renderers list shapes of area lights twice).");
     if (announcedMeshes != facts.meshes || announcedTriangles != facts.triangles)
         finding.complain(Outcome::failed, fmt::format("The renderer announces {} in {}.", counted(announcedTriangles, "triangle"), counted(announcedMeshes, "mesh", "meshes")),

@@ -76,7 +76,7 @@ Finding PathCheck::finding() const {
     if (vertices_ == 0)
         finding.complain(Outcome::warning, "No path has a vertex: there is nothing to draw.", "Call setDepthIndex and setIntersectionPos at each intersection.");
     if (gaps_ > 0)
-        finding.complain(Outcome::warning, fmt::format("{} depth indices with gaps, first {}.", gaps_ == 1 ? "1 path has" : fmt::format("{} paths have", gaps_), gapExample_),
+        finding.complain(Outcome::warning, fmt::format("{} depth indices with gaps, first {}.", counted(gaps_, "path has", "paths have"), gapExample_),
                          "Count depths one by one: 1 is the first intersection (0, if used, the camera).");
     if (dropped_.droppedWithoutPath + dropped_.droppedWithoutVertex > 0)
         finding.complain(Outcome::warning, fmt::format("{} came before setPathIndex and {} before setDepthIndex, and were dropped.", counted(dropped_.droppedWithoutPath, "value"), dropped_.droppedWithoutVertex),

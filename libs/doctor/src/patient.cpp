@@ -94,24 +94,26 @@ std::uint32_t Patient::samples() {
     return info() ? std::clamp<std::uint32_t>(info()->samplesPerPixel, 1, 16) : 0;
 }
 
-client::RenderOptions Patient::renderOptions() {
-    client::RenderOptions options;
+/// What the person chose, for renders and replays alike: a replay repeats its render by the same settings.
+template <typename Options>
+Options Patient::withSettings() {
+    Options options;
     options.samplesPerPixel = samples();
     options.integrator = options_.integrator;
     options.sampler = options_.sampler;
     options.seed = options_.seed;
     options.hasSeed = options_.hasSeed;
+    return options;
+}
+
+client::RenderOptions Patient::renderOptions() {
+    auto options = withSettings<client::RenderOptions>();
     options.preview = false;
     return options;
 }
 
 client::TraceOptions Patient::traceOptions() {
-    client::TraceOptions options;
-    options.samplesPerPixel = samples();
-    options.integrator = options_.integrator;
-    options.sampler = options_.sampler;
-    options.seed = options_.seed;
-    options.hasSeed = options_.hasSeed;
+    auto options = withSettings<client::TraceOptions>();
     options.against = client::VerdictAgainst::nothing;
     return options;
 }

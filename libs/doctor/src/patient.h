@@ -88,6 +88,8 @@ class Patient {
     std::vector<double> imageSeconds;        ///< the renderer's own times of all plain renders with renderOptions()
 
   private:
+    template <typename Options>
+    Options withSettings();
     void replayAll(Replays& replays);
     std::vector<Pixel> choosePixels(const client::ServerInfo& info) const;
     const client::Address address_;

@@ -200,12 +200,12 @@ Finding SurfaceCheck::finding() const {
         finding.pixels.push_back({outOfRange_.pixel, withoutPixel(outOfRange_.example)});
     }
     if (slightly_.count > 0) {
-        finding.complain(Outcome::warning, fmt::format("{} a little beside their triangle, by {} at most ({}).", slightly_.count == 1 ? "1 lies" : fmt::format("{} lie", slightly_.count), formatNumber(slightly_.distance), slightly_.example),
+        finding.complain(Outcome::warning, fmt::format("{} a little beside their triangle, by {} at most ({}).", counted(slightly_.count, "lies", "lie"), formatNumber(slightly_.distance), slightly_.example),
                          "Record the intersection itself, not the point that is moved off the surface for the next ray.");
         finding.pixels.push_back({slightly_.pixel, withoutPixel(slightly_.example)});
     }
     if (off_.count > 0) {
-        finding.complain(Outcome::failed, fmt::format("{} off their triangle, by {} at most ({}); the scene is {} large.", off_.count == 1 ? "1 is" : fmt::format("{} are", off_.count), formatNumber(off_.distance), off_.example, formatNumber(scene_)),
+        finding.complain(Outcome::failed, fmt::format("{} off their triangle, by {} at most ({}); the scene is {} large.", counted(off_.count, "is", "are"), formatNumber(off_.distance), off_.example, formatNumber(scene_)),
                          "Mesh and face must be those of meshes() and positions in world space: look for another order of meshes, faces reordered by the acceleration structure, instances without their transform.");
         finding.pixels.push_back({off_.pixel, withoutPixel(off_.example)});
     }
