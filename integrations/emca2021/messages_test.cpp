@@ -3,33 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "published_for_tests.h"
 
 namespace emca::bridge {
 namespace {
 
 using namespace test;
-
-/// Bytes that end; in small portions, as a network has them.
-class Bytes final : public ByteSource {
-  public:
-    explicit Bytes(std::span<const std::byte> bytes, ErrorCode atEnd = ErrorCode::connectionLost, std::size_t portion = 7)
-        : bytes_(bytes), atEnd_(atEnd), portion_(portion) {}
-    Result<std::size_t> readSome(std::span<std::byte> into, std::chrono::milliseconds) override {
-        if (bytes_.empty()) return Error{atEnd_, "That was all."};
-        const std::size_t n = std::min({bytes_.size(), into.size(), portion_});
-        std::memcpy(into.data(), bytes_.data(), n);
-        bytes_ = bytes_.subspan(n);
-        return n;
-    }
-
-  private:
-    std::span<const std::byte> bytes_;
-    ErrorCode atEnd_;
-    std::size_t portion_;
-};
 
 std::vector<std::byte> pixelBytes(bool swapped = false, std::uint32_t tooMany = 0) {
     const auto paths = examplePaths({3, 4}, 6);

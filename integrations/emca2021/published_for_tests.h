@@ -48,6 +48,25 @@ class Writer {
     std::vector<std::byte> bytes_;
 };
 
+/// What a reader gets: bytes that end; in small portions, as a network has them.
+class Bytes final : public ByteSource {
+  public:
+    explicit Bytes(std::span<const std::byte> bytes, ErrorCode atEnd = ErrorCode::connectionLost, std::size_t portion = 7)
+        : bytes_(bytes), atEnd_(atEnd), portion_(portion) {}
+    Result<std::size_t> readSome(std::span<std::byte> into, std::chrono::milliseconds) override {
+        if (bytes_.empty()) return Error{atEnd_, "That was all."};
+        const std::size_t n = std::min({bytes_.size(), into.size(), portion_});
+        std::memcpy(into.data(), bytes_.data(), n);
+        bytes_ = bytes_.subspan(n);
+        return n;
+    }
+
+  private:
+    std::span<const std::byte> bytes_;
+    ErrorCode atEnd_;
+    std::size_t portion_;
+};
+
 void write(Writer& out, const PublishedInfo& info);      // each: the body of a reply
 void write(Writer& out, const PublishedCamera& camera);
 void write(Writer& out, const PublishedScene& scene);

@@ -11,23 +11,6 @@
 namespace emca::bridge {
 namespace {
 
-class Bytes final : public ByteSource {
-  public:
-    Bytes(std::span<const std::byte> bytes, std::size_t portion, ErrorCode atEnd) : bytes_(bytes), portion_(portion), atEnd_(atEnd) {}
-    Result<std::size_t> readSome(std::span<std::byte> into, std::chrono::milliseconds) override {
-        if (bytes_.empty()) return Error{atEnd_, "That was all."};
-        const std::size_t n = std::min({bytes_.size(), into.size(), portion_});
-        std::memcpy(into.data(), bytes_.data(), n);
-        bytes_ = bytes_.subspan(n);
-        return n;
-    }
-
-  private:
-    std::span<const std::byte> bytes_;
-    std::size_t portion_;
-    ErrorCode atEnd_;
-};
-
 void sameAgain(const test::Writer& out, std::span<const std::byte> bytes) {
     if (out.bytes().size() > bytes.size() || std::memcmp(out.bytes().data(), bytes.data(), out.bytes().size()) != 0) std::abort();
 }
@@ -57,7 +40,7 @@ void usePixel(const PublishedPixel& pixel) {
 }
 
 void look(std::uint8_t kind, std::uint8_t how, std::span<const std::byte> bytes) {
-    Bytes source(bytes, how % 16 + 1u, how & 64 ? ErrorCode::timedOut : ErrorCode::connectionLost);
+    test::Bytes source(bytes, how & 64 ? ErrorCode::timedOut : ErrorCode::connectionLost, how % 16 + 1u);
     WireReader in(source, {.paths = 1u << 16, .replyBytes = 1u << 24});
     const bool swapped = (how & 128) != 0;
     in.setSwapped(swapped);
