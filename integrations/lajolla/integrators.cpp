@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "emca/adapter/exchanged.h"
+
 // In the person's render.cpp; an integrator that is not there is not offered.
 #define EMCA_COURSE_INTEGRATOR(name) Spectrum name(const Scene& scene, int x, int y, pcg32_state& random) __attribute__((weak))
 EMCA_COURSE_INTEGRATOR(path_tracing);
@@ -29,24 +31,6 @@ std::string nameFor(const ::Scene& scene) {
     if (scene.options.integrator == ::Integrator::VolPath) return "volpath";
     return "emcapath";  // depth, normals and other images without paths
 }
-
-/// While it lives, the thread's integrator is observed.
-class Observed {
-  public:
-    explicit Observed(Observer* observer) { currentObserver() = observer; }
-    ~Observed() { currentObserver() = nullptr; }
-    Observed(const Observed&) = delete;
-    Observed& operator=(const Observed&) = delete;
-};
-
-/// While it lives, camera rays of this thread are this one.
-class CameraRay {
-  public:
-    explicit CameraRay(const Ray& ray) { cameraRayOverride() = &ray; }
-    ~CameraRay() { cameraRayOverride() = nullptr; }
-    CameraRay(const CameraRay&) = delete;
-    CameraRay& operator=(const CameraRay&) = delete;
-};
 
 }  // namespace
 
@@ -102,7 +86,7 @@ Spectrum PathTracer::courseSample(Pixel pixel, PathRecorder emca) {
     }
     observer_.beginPath(emca, tally_ ? &*tally_ : nullptr);
     const Spectrum radiance = [&] {
-        const Observed observed(&observer_);
+        const adapter::Exchanged observed(currentObserver(), &observer_);
         return integrator_.course(scene_.scene(), static_cast<int>(pixel.x), static_cast<int>(pixel.y), random_.state());
     }();
     observer_.endPath(radiance);
@@ -116,7 +100,7 @@ Spectrum PathTracer::radiance(const Ray& ray, Pixel pixel, std::uint32_t index, 
         const int depth = maximumDepth == 0 ? scene.options.max_depth : maximumDepth;
         return EmcaPath(scene_, depth).radiance(ray, RayDifferential{}, random_, recorder(), nullptr);
     }
-    const CameraRay instead(ray);
+    const adapter::Exchanged instead(cameraRayOverride(), &ray);
     return integrator_.course(scene, 0, 0, random_.state());
 }
 

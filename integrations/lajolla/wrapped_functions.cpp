@@ -1,5 +1,6 @@
 // What the linker puts in place of lajolla's functions (--wrap): each calls the real one and tells the observer of this
 // thread, if there is one. So integrators are seen whose source knows nothing of it, and their bits stay the same.
+#include "emca/adapter/exchanged.h"
 #include "lajolla_headers.h"
 #include "observed_names.h"
 #include "observer.h"
@@ -8,25 +9,10 @@
     result real_##name(__VA_ARGS__) __asm__("__real_" EMCA_NAME_##name); \
     __attribute__((used)) result wrap_##name(__VA_ARGS__) __asm__("__wrap_" EMCA_NAME_##name)
 
+using emca::adapter::Exchanged;
 using emca::lajolla::cameraRayOverride;
 using emca::lajolla::currentObserver;
 using emca::lajolla::Observer;
-
-namespace {
-
-/// What a function of lajolla calls inside of itself is not the integrator's.
-class Unobserved {
-  public:
-    Unobserved() : observer_(currentObserver()) { currentObserver() = nullptr; }
-    ~Unobserved() { currentObserver() = observer_; }
-    Unobserved(const Unobserved&) = delete;
-    Unobserved& operator=(const Unobserved&) = delete;
-
-  private:
-    Observer* observer_;
-};
-
-}  // namespace
 
 EMCA_WRAPPED(Ray, sample_primary, const Camera&, const Vector2&);
 EMCA_WRAPPED(std::optional<PathVertex>, intersect, const Scene&, const Ray&, const RayDifferential&);
@@ -95,7 +81,7 @@ Spectrum wrap_light_emission(const Light& light, const Vector3& direction, Real 
 
 Spectrum wrap_hit_emission(const PathVertex& hit, const Vector3& direction, const Scene& scene) {
     const Spectrum emission = [&] {
-        const Unobserved inside;
+        const Exchanged unobserved(currentObserver(), nullptr);  // what it calls inside is not the integrator's
         return real_hit_emission(hit, direction, scene);
     }();
     if (Observer* observer = currentObserver()) observer->emitted(nullptr, &hit, {hit.position, hit.geometric_normal}, emission);

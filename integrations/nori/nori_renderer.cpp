@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "emca/adapter/exchanged.h"
 #include "emca/adapter/light_probe_tool.h"
 #include "emca/core/seed_map.h"
 #include "seeded_sampler.h"
@@ -11,15 +12,6 @@
 namespace emca::nori_adapter {
 
 namespace {
-
-/// While it lives, what this thread's integrator does is observed.
-class Observed {
-  public:
-    explicit Observed(Observer* observer) { currentObserver() = observer; }
-    ~Observed() { currentObserver() = nullptr; }
-    Observed(const Observed&) = delete;
-    Observed& operator=(const Observed&) = delete;
-};
 
 /// One thread's way of tracing paths. Everything about a sample follows from the pixel, its index and the seed.
 class PathTracer {
@@ -42,7 +34,7 @@ class PathTracer {
         if (!emca.isRecording() && !surface_) return weight * radiance(ray);
         observer_.beginPath(emca, index, surface_);
         const nori::Color3f value = [&] {
-            const Observed observed(&observer_);
+            const adapter::Exchanged observed(currentObserver(), &observer_);
             return nori::Color3f(weight * radiance(ray));
         }();
         observer_.endPath(value);

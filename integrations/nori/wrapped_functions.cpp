@@ -7,28 +7,13 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "emca/adapter/exchanged.h"
 #include "nori_headers.h"
 #include "observed_names.h"
 #include "observer.h"
 
 using emca::nori_adapter::currentObserver;
 using emca::nori_adapter::Observer;
-
-namespace {
-
-/// What a function calls inside of itself is not the integrator's.
-class Unobserved {
-  public:
-    Unobserved() : observer_(currentObserver()) { currentObserver() = nullptr; }
-    ~Unobserved() { currentObserver() = observer_; }
-    Unobserved(const Unobserved&) = delete;
-    Unobserved& operator=(const Unobserved&) = delete;
-
-  private:
-    Observer* observer_;
-};
-
-}  // namespace
 
 // Member functions as the linker sees them: `this` is the first parameter.
 
@@ -88,7 +73,7 @@ const Functions& functionsOf(const nori::BSDF* bsdf) { return functions().find(t
 nori::Color3f observedSample(const nori::BSDF* self, nori::BSDFQueryRecord& query, const nori::Point2f& u) {
     const nori::Point2f random = u;
     const nori::Color3f weight = [&] {
-        const Unobserved inside;
+        const adapter::Exchanged unobserved(currentObserver(), nullptr);  // what it calls inside is not the integrator's
         return functionsOf(self).sample(self, query, u);
     }();
     if (Observer* observer = currentObserver()) observer->bsdfSampled(*self, query, random, weight);
@@ -97,7 +82,7 @@ nori::Color3f observedSample(const nori::BSDF* self, nori::BSDFQueryRecord& quer
 
 nori::Color3f observedEval(const nori::BSDF* self, const nori::BSDFQueryRecord& query) {
     const nori::Color3f value = [&] {
-        const Unobserved inside;
+        const adapter::Exchanged unobserved(currentObserver(), nullptr);  // what it calls inside is not the integrator's
         return functionsOf(self).eval(self, query);
     }();
     if (Observer* observer = currentObserver()) observer->bsdfValue(*self, query, value);
@@ -106,7 +91,7 @@ nori::Color3f observedEval(const nori::BSDF* self, const nori::BSDFQueryRecord& 
 
 float observedPdf(const nori::BSDF* self, const nori::BSDFQueryRecord& query) {
     const float pdf = [&] {
-        const Unobserved inside;
+        const adapter::Exchanged unobserved(currentObserver(), nullptr);  // what it calls inside is not the integrator's
         return functionsOf(self).pdf(self, query);
     }();
     if (Observer* observer = currentObserver()) observer->bsdfPdf(*self, query, pdf);
