@@ -121,7 +121,7 @@ class Terminal {
         ASSERT_TRUE(fs::exists(folder / "CMakeLists.txt"));
         if (program == "mitsuba") return;  // its options are Mitsuba's
         std::string known;
-        for (const fs::path& part : {folder, kSource / "libs/adapter"})
+        for (const fs::path& part : {folder, kSource / "integrations/program", kSource / "libs/adapter"})
             for (const auto& entry : fs::recursive_directory_iterator(part))
                 if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") known += contents(entry.path());
         const std::regex option(R"(\s(--[a-z-]+))");
