@@ -16,6 +16,8 @@ Lobe lobeOf(const nori::BSDF& bsdf, const nori::BSDFQueryRecord& query) {
     return bsdf.isDiffuse() ? Lobe::diffuse : Lobe::glossy;
 }
 
+const LayerDescription kShadowed{"shadowed tests", LayerKind::mean, "", "Part of the visibility tests from here that found something in between."};
+
 /// Meshes are called by their files, with the folders before.
 std::string_view fileName(std::string_view path) { return path.substr(path.find_last_of('/') + 1); }
 
@@ -28,13 +30,15 @@ std::string className(const nori::NoriObject& object) {
 }  // namespace
 
 const std::vector<LayerDescription>& surfaceLayers() {
-    static const std::vector<LayerDescription> layers{
-        {"intersection density", LayerKind::density, "1/unit²", "Vertices of all paths."},
-        {"shadowed tests", LayerKind::mean, "", "Part of the visibility tests from here that found something in between."},
-        {"path depth", LayerKind::mean, "vertices", "Number of vertices of the paths that come by."},
-    };
+    static const std::vector<LayerDescription> layers = [] {
+        std::vector<LayerDescription> all = pathLayers({PathLayer::intersections, PathLayer::pathDepth});
+        all.insert(all.begin() + 1, kShadowed);
+        return all;
+    }();
     return layers;
 }
+
+Observer::Tally::Tally(SurfaceRecorder& surface) : layers(surface), paths(layers), shadowed(surface.find(kShadowed.name)) {}
 
 Observer*& currentObserver() {
     thread_local Observer* observer = nullptr;
@@ -46,19 +50,15 @@ void Observer::beginPath(PathRecorder emca, std::int64_t sample, SurfaceRecorder
     sample_ = sample;
     part_ = 0;
     begun_ = left_ = false;
-    path_.clear(), points_.clear();
+    path_.clear();
     waiting_.reset();
-    cursor_ = surface ? &surface->cursor() : nullptr;
-    if (surface) {
-        intersections_ = surface->find("intersection density");
-        shadowed_ = surface->find("shadowed tests");
-        depths_ = surface->find("path depth");
-    }
+    if (surface && !tally_) tally_.emplace(*surface);
+    if (tally_) tally_->vertices = 0;
 }
 
 void Observer::endPath(const nori::Color3f& radiance) {
     resolveWaiting(true);
-    for (const SurfacePoint& point : points_) depths_.add(point, static_cast<float>(points_.size()));
+    if (tally_) tally_->paths.end(tally_->vertices);
     emca_.setFinalEstimate(toColor(radiance));
 }
 
@@ -119,12 +119,13 @@ void Observer::enter(const Vertex& entered) {
         emca_.setIntersectionEvent(Event::emission);
         emca_.addIntersectionData("emitter", true);
     }
-    if (cursor_ && mesh != meshes_.end() && vertex.triangle) {
-        points_.push_back(cursor_->locate(static_cast<std::uint32_t>(mesh->second), vertex.triangle->face, Vec2f{vertex.triangle->u, vertex.triangle->v}));
-        intersections_.add(points_.back());
-    } else if (cursor_) {
-        points_.emplace_back();
-    }
+    if (!tally_) return;
+    ++tally_->vertices;
+    SurfaceLocation place;
+    if (mesh != meshes_.end() && vertex.triangle)
+        place = {mesh->second, static_cast<std::int32_t>(vertex.triangle->face), toVec3f(vertex.position), {vertex.triangle->u, vertex.triangle->v}};
+    tally_->paths.intersection(place);
+    if (tally_->shadowed) vertex.point = tally_->paths.here();
 }
 
 void Observer::leave(const nori::Ray3f& ray) {
@@ -152,10 +153,11 @@ void Observer::resolveWaiting(bool isVertex) {
 
 void Observer::test(const nori::Ray3f& ray, int start, bool visible) {
     if (start < 0) return;
-    at(path_[static_cast<std::size_t>(start)]);
+    const Vertex& from = path_[static_cast<std::size_t>(start)];
+    at(from);
     const nori::Point3f end = std::isfinite(ray.maxt) ? ray(ray.maxt) : beyond(ray);
     emca_.setNextEventEstimationPos(toVec3f(end), visible);
-    if (cursor_ && start < static_cast<int>(points_.size())) shadowed_.add(points_[static_cast<std::size_t>(start)], visible ? 0.f : 1.f);
+    if (tally_) tally_->shadowed.add(from.point, visible ? 0.f : 1.f);
     back();
 }
 

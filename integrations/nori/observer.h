@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "emca/recorder/path_layers.h"
 #include "nori_headers.h"
 
 namespace emca::nori_adapter {
@@ -32,6 +33,7 @@ class Observer {
   public:
     Observer(const MeshIndices& meshes, nori::Point3f centre, float radius) : meshes_(meshes), centre_(centre), radius_(radius) {}
 
+    /// \param surface  null, or the same for all paths
     void beginPath(PathRecorder emca, std::int64_t sample, SurfaceRecorder* surface);
     void endPath(const nori::Color3f& radiance);
 
@@ -54,9 +56,19 @@ class Observer {
         nori::Vector3f wi;                       ///< local direction from which the path came
         const nori::Mesh* mesh = nullptr;
         std::optional<TriangleHit> triangle;
+        SurfacePoint point;                      ///< in the layers: a test may start at any vertex
         std::int32_t depth = 0;
         std::optional<nori::Vector3f> sampled;   ///< local direction that its BSDF gave
         bool wentOn = false;
+    };
+
+    /// What paths add to the layers.
+    struct Tally {
+        explicit Tally(SurfaceRecorder& surface);
+        PathLayers layers;
+        PathTally paths;
+        SurfaceLayer shadowed;
+        int vertices = 0;  ///< of this path
     };
 
     Vertex vertexOf(const nori::Ray3f& ray, const nori::Intersection& hit) const;
@@ -80,8 +92,7 @@ class Observer {
     float radius_;
 
     PathRecorder emca_;
-    SurfaceCursor* cursor_ = nullptr;
-    SurfaceLayer intersections_, shadowed_, depths_;
+    std::optional<Tally> tally_;         ///< where layers are collected
     std::int64_t sample_ = 0;
     std::int32_t part_ = 0;
     bool begun_ = false, left_ = false;
@@ -89,7 +100,6 @@ class Observer {
     std::optional<Vertex> waiting_;      ///< a hit that may be a vertex or a test
     int waitingStart_ = -1;
     std::vector<TriangleHit> hits_;      ///< of the ray that is traced now
-    std::vector<SurfacePoint> points_;   ///< where layers are collected
 };
 
 /// The observer of this thread's current path, or null.
