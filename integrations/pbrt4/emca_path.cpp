@@ -22,6 +22,10 @@ std::span<const float> values(const SampledSpectrum& spectrum, std::array<float,
     return store;
 }
 
+/// Stays a function: in the middle of another one a compiler may fuse other products and sums of it than pbrt's build does,
+/// and every bit of a path is to be that of pbrt's own integrator.
+[[gnu::noinline]] Float density(const pbrt::BSDF& bsdf, pbrt::Vector3f wo, pbrt::Vector3f wi) { return bsdf.PDF(wo, wi); }
+
 }  // namespace
 
 /// A path on its way.
@@ -68,7 +72,7 @@ SampledSpectrum EmcaPathIntegrator::radiance(const pbrt::RayDifferential& ray, p
         auto hit = Intersect(walk.ray);
         if (!hit) {
             recorder.setDepthIndex(vertex);
-            if (context.tally) context.tally->background(context.cameraWeight * walk.throughput);
+            if (context.tally) context.tally->background();
             environmentLight(walk, context);
             recorder.setIntersectionEstimate([&] { return radianceColor(walk.estimate); });
             recorder.addPathData("left scene", true);
@@ -103,7 +107,8 @@ SampledSpectrum EmcaPathIntegrator::radiance(const pbrt::RayDifferential& ray, p
         recorder.setIntersectionEstimate([&] { return radianceColor(walk.estimate); });
         if (!scatter(walk, at, bsdf, depth, context)) break;
     }
-    if (context.tally) context.tally->end(view_.colors, lambda);
+    if (context.tally)
+        context.tally->end(vertex, [&](const SampledSpectrum& s) { return view_.colors.radiance(s, lambda); });
     recorder.addPathData("end", std::string_view(walk.end));
     return walk.estimate;
 }
@@ -115,20 +120,20 @@ void EmcaPathIntegrator::arrive(const Walk& walk, const pbrt::SurfaceInteraction
     if (!context.watch) return;
     const SurfacePlace place = view_.surfaces.at(context.watch->lastHit(), at);
     const Vec3f position = view_.world.point(at.p());
-    const auto throughput = [&] { return view_.colors.factor(context.cameraWeight * walk.throughput, walk.lambda); };
+    const SampledSpectrum throughput = context.cameraWeight * walk.throughput;
+    const auto toColor = [&](const SampledSpectrum& factor) { return view_.colors.factor(factor, walk.lambda); };
     recorder.setIntersectionPos(position);
     if (place.known()) recorder.setIntersectionSurface(place.mesh, place.face);
-    recorder.addIntersectionData("throughput", throughput);
+    recorder.addIntersectionData("throughput", [&] { return toColor(throughput); });
     std::array<float, pbrt::NSpectrumSamples> store;
-    recorder.addIntersectionData("throughput (spectrum)",
-                                 [&] { return values(context.cameraWeight * walk.throughput, store); });
+    recorder.addIntersectionData("throughput (spectrum)", [&] { return values(throughput, store); });
     if (place.known()) {
         recorder.addIntersectionData(
             "shape", [&] { return std::string_view(view_.surfaces.meshes()[std::size_t(place.mesh)].name); });
     }
     if (context.tally) {
-        context.tally->intersection({place.mesh, place.face, position}, context.cameraWeight * walk.throughput);
-        if (context.tally->wantsThroughput()) context.tally->throughput(throughput());
+        context.tally->intersection({place.mesh, place.face, position});
+        context.tally->throughput(throughput, toColor);
     }
 }
 
@@ -222,7 +227,7 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const pbrt::SurfaceInteraction
         return delta ? Float(1) : pbrt::PowerHeuristic(1, lightDensity, 1, bsdfDensity);
     };
     if (context.watch) {
-        const Float bsdfDensity = bsdf.PDF(wo, wi);
+        const Float bsdfDensity = density(bsdf, wo, wi);
         recorder.addIntersectionData("BSDF pdf (light)", number(bsdfDensity));
         recorder.addIntersectionData("MIS weight (light)", number(weightOf(bsdfDensity)));
         if (context.tally) context.tally->misWeight(number(weightOf(bsdfDensity)));
@@ -234,7 +239,7 @@ void EmcaPathIntegrator::sampledLight(Walk& walk, const pbrt::SurfaceInteraction
     if (delta) {
         direct = light->L * f / lightDensity;
     } else {
-        weight = weightOf(bsdf.PDF(wo, wi));
+        weight = weightOf(density(bsdf, wo, wi));
         direct = weight * light->L * f / lightDensity;
     }
     walk.estimate += walk.throughput * direct;
@@ -261,7 +266,7 @@ bool EmcaPathIntegrator::scatter(Walk& walk, const pbrt::SurfaceInteraction& at,
         return false;
     }
     walk.throughput *= sample->f * AbsDot(sample->wi, at.shading.n) / sample->pdf;
-    walk.scatteringDensity = sample->pdfIsProportional ? bsdf.PDF(wo, sample->wi) : sample->pdf;
+    walk.scatteringDensity = sample->pdfIsProportional ? density(bsdf, wo, sample->wi) : sample->pdf;
     walk.alone = sample->IsSpecular();
     walk.rough |= !sample->IsSpecular();
     if (sample->IsTransmission()) walk.etaScale *= pbrt::Sqr(sample->eta);

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "emca/recorder/path_layers.h"
 #include "emca/recorder/recorder.h"
 #include "scene_surfaces.h"
-#include "spectrum_tally.h"
+#include "spectrum_colors.h"
 
 namespace emca::pbrt4 {
 
@@ -20,6 +21,9 @@ struct SceneView {
         return world.point(ray.o + ray.d * ((Distance(ray.o, centre) + 2 * radius) / Length(ray.d)));
     }
 };
+
+/// What the paths of our integrator add to the path layers.
+using SpectrumTally = emca::BasicPathTally<pbrt::SampledSpectrum>;
 
 /// Around one path: who records it. Nothing in it changes the path.
 struct PathContext {

@@ -42,37 +42,7 @@ PathLayers::PathLayers(SurfaceRecorder& surface) : recorder(&surface) {
     perPath = reflected || contribution || pathDepth;
 }
 
-SurfacePoint PathTally::locate(const SurfaceLocation& at) {
-    if (at.mesh < 0 || at.face < 0) return {};
-    const auto mesh = static_cast<std::uint32_t>(at.mesh), face = static_cast<std::uint32_t>(at.face);
-    return at.barycentrics.x == at.barycentrics.x ? cursor_.locate(mesh, face, at.barycentrics) : cursor_.locate(mesh, face, at.position);
-}
-
-void PathTally::background() {
-    here_ = {};
-    located_ = true;
-    if (layers_.perPath) vertices_.push_back({});
-}
-
-void PathTally::nextEvent(const SurfaceLocation& light) {
-    if (layers_.nextEvents) layers_.nextEvents.add(locate(light));
-}
-
-void PathTally::end(int depth) {
-    Color arriving(0.f);  // at the vertex, from where the path went
-    for (std::size_t i = vertices_.size(); i-- > 0;) {
-        const Vertex& vertex = vertices_[i];
-        layers_.pathDepth.add(vertex.point, static_cast<float>(depth));
-        if (!saysThroughput_) continue;
-        const Color reflected = vertex.direct + vertex.factor * arriving;
-        layers_.reflected.add(vertex.point, reflected);
-        layers_.contribution.add(vertex.point, vertex.throughput * reflected);
-        arriving = vertex.hit + reflected;
-    }
-    vertices_.clear();
-    here_ = {};
-    located_ = true;
-    saysThroughput_ = false;
-}
+template class BasicPathTally<Color>;
+template void BasicPathTally<Color>::end(int, std::identity);
 
 }  // namespace emca

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <type_traits>
 
 namespace emca {
 namespace {
@@ -26,11 +27,12 @@ Color valueOn(const SurfaceField& field, std::size_t mesh, PathLayer layer) {
     return {};
 }
 
-SurfaceField collect(const std::vector<LayerDescription>& layers, const std::function<void(PathTally&)>& walk) {
+template <typename Tally = PathTally>
+SurfaceField collect(const std::vector<LayerDescription>& layers, const std::function<void(std::type_identity_t<Tally>&)>& walk) {
     SurfaceRecorder recorder(twoTriangles(), {.samplesPerDivision = 1u << 30});
     for (const LayerDescription& layer : layers) EXPECT_TRUE(recorder.addLayer(layer).ok());
     const PathLayers handles(recorder);
-    PathTally tally(handles);
+    Tally tally(handles);
     walk(tally);
     return recorder.finish();
 }
@@ -62,6 +64,41 @@ TEST(PathLayers, RadianceIsGatheredFromThePathsEnd) {
     EXPECT_EQ(valueOn(field, 0, PathLayer::misWeight), Color(0.25f));
     EXPECT_EQ(valueOn(field, 0, PathLayer::pathDepth), Color(3));
     EXPECT_EQ(valueOn(field, 1, PathLayer::pathDepth), Color(3));
+}
+
+/// Radiance at two wavelengths.
+struct TwoWavelengths {
+    explicit TwoWavelengths(float both) : TwoWavelengths(both, both) {}
+    TwoWavelengths(float first, float second) : a(first), b(second) {}
+    float a, b;
+    TwoWavelengths operator+(TwoWavelengths o) const { return {a + o.a, b + o.b}; }
+    TwoWavelengths operator*(TwoWavelengths o) const { return {a * o.a, b * o.b}; }
+    TwoWavelengths& operator+=(TwoWavelengths o) { return *this = *this + o; }
+    TwoWavelengths& operator/=(float d) { return *this = {a / d, b / d}; }
+};
+
+TEST(PathLayers, SpectraAreMultipliedBeforeTheyBecomeColours) {
+    using Tally = BasicPathTally<TwoWavelengths>;
+    const auto grey = [](TwoWavelengths s) { return Color((s.a + s.b) / 2); };
+    const SurfaceField field = collect<Tally>(pathLayers(), [&](Tally& tally) {
+        tally.intersection(kFirst);
+        tally.throughput({2, 0}, grey);
+        tally.direct({0, 6});
+        tally.scattered({0, 1});
+        tally.survived(0.25f);
+        tally.intersection(kSecond);
+        tally.throughput({0, 4}, grey);
+        tally.hit({8, 1});
+        tally.direct({1, 1});
+        tally.end(2, grey);
+    });
+    EXPECT_EQ(valueOn(field, 0, PathLayer::throughput), Color(1));
+    EXPECT_EQ(valueOn(field, 1, PathLayer::throughput), Color(2));
+    EXPECT_EQ(valueOn(field, 1, PathLayer::reflected), Color(1));
+    EXPECT_EQ(valueOn(field, 1, PathLayer::contribution), Color(2));
+    EXPECT_EQ(valueOn(field, 0, PathLayer::reflected), Color((6 + 4 * 2) / 2));
+    EXPECT_EQ(valueOn(field, 0, PathLayer::contribution), Color(0));  // of colours: 7
+    EXPECT_EQ(valueOn(field, 0, PathLayer::pathDepth), Color(2));
 }
 
 TEST(PathLayers, DensitiesCountEventsPerArea) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <vector>
@@ -48,10 +49,15 @@ struct SurfaceLocation {
 /// Radiance reflected at a vertex is gathered backwards from the path's end: direct light there, plus the factor of the
 /// scattering times what the next vertex gave (Kajiya, "The Rendering Equation", 1986). So a channel whose throughput is
 /// zero at the camera still shows its light.
-class PathTally {
+///
+/// \tparam Radiance  what the renderer computes with: a colour, or a spectrum at the path's wavelengths. With few of them a
+///                   sample's colour is noise, and the product of two noisy colours is on average not the colour of the
+///                   product; so it becomes a colour at the end. Has +, +=, * and, for survived(), /= of a number.
+template <typename Radiance>
+class BasicPathTally {
   public:
     /// In the thread that adds. `layers` must outlive it.
-    explicit PathTally(const PathLayers& layers) : layers_(layers), cursor_(layers.recorder->cursor()) {}
+    explicit BasicPathTally(const PathLayers& layers) : layers_(layers), cursor_(layers.recorder->cursor()) {}
 
     /// A path met a surface; until the next call, everything is about this vertex.
     void intersection(const SurfaceLocation& at) {
@@ -63,13 +69,15 @@ class PathTally {
     /// A vertex without surface: the path left the scene, or scattered in a medium.
     void background();
     /// Of the camera path up to here, with that of Russian roulette.
-    void throughput(Color throughput) {
+    /// \param toColor  of throughput; called where a layer shows it
+    template <typename ToColor = std::identity>
+    void throughput(const Radiance& throughput, ToColor toColor = {}) {
         saysThroughput_ = true;
-        if (layers_.throughput) layers_.throughput.add(here(), throughput);
+        if (layers_.throughput) layers_.throughput.add(here(), toColor(throughput));
         if (!vertices_.empty()) vertices_.back().throughput = throughput;
     }
     /// Light that the path met here, as it arrives at the vertex before: emission times MIS weight.
-    void hit(Color radiance) { if (!vertices_.empty()) vertices_.back().hit += radiance; }
+    void hit(const Radiance& radiance) { if (!vertices_.empty()) vertices_.back().hit += radiance; }
     /// Whether nextEvent() has any effect: a place on a light may cost something to find.
     bool wantsNextEvents() const { return bool(layers_.nextEvents); }
     /// A point on a light was chosen, visible or not.
@@ -77,15 +85,18 @@ class PathTally {
     /// MIS weight of light sampling here, whether or not the light is visible.
     void misWeight(float weight) { if (layers_.misWeight) layers_.misWeight.add(here(), weight); }
     /// Light that light sampling found, as it is reflected here towards the path.
-    void direct(Color radiance) { if (!vertices_.empty()) vertices_.back().direct += radiance; }
+    void direct(const Radiance& radiance) { if (!vertices_.empty()) vertices_.back().direct += radiance; }
     /// The path goes on. \param factor  BSDF times cosine over density
-    void scattered(Color factor) { if (!vertices_.empty()) vertices_.back().factor = factor; }
+    void scattered(const Radiance& factor) { if (!vertices_.empty()) vertices_.back().factor = factor; }
     /// Russian roulette let it go on. \param probability  of that; is part of throughput() at the next vertex
     void survived(float probability) { if (!vertices_.empty()) vertices_.back().factor /= probability; }
     void invalidDirection() { if (layers_.invalidDirections) layers_.invalidDirections.add(here()); }
     void rouletteEnd() { if (layers_.roulette) layers_.roulette.add(here()); }
-    /// The path ended. \param depth  its number of vertices
-    void end(int depth);
+    /// The path ended.
+    /// \param depth    its number of vertices
+    /// \param toColor  of radiance; called where a layer shows it
+    template <typename ToColor = std::identity>
+    void end(int depth, ToColor toColor = {});
     /// The place of this vertex, for layers of the renderer's own.
     const SurfacePoint& here() {
         if (!located_) locateHere();
@@ -96,7 +107,7 @@ class PathTally {
     /// What has to wait for the path's end.
     struct Vertex {
         SurfacePoint point;
-        Color throughput{0.f}, hit{0.f}, direct{0.f}, factor{0.f};
+        Radiance throughput{0.f}, hit{0.f}, direct{0.f}, factor{0.f};
     };
     SurfacePoint locate(const SurfaceLocation& at);
     void locateHere() {
@@ -111,5 +122,49 @@ class PathTally {
     bool located_ = true, saysThroughput_ = false;
     std::vector<Vertex> vertices_;  ///< empty where no layer asks for the end
 };
+
+template <typename Radiance>
+SurfacePoint BasicPathTally<Radiance>::locate(const SurfaceLocation& at) {
+    if (at.mesh < 0 || at.face < 0) return {};
+    const auto mesh = static_cast<std::uint32_t>(at.mesh), face = static_cast<std::uint32_t>(at.face);
+    return at.barycentrics.x == at.barycentrics.x ? cursor_.locate(mesh, face, at.barycentrics) : cursor_.locate(mesh, face, at.position);
+}
+
+template <typename Radiance>
+void BasicPathTally<Radiance>::background() {
+    here_ = {};
+    located_ = true;
+    if (layers_.perPath) vertices_.push_back({});
+}
+
+template <typename Radiance>
+void BasicPathTally<Radiance>::nextEvent(const SurfaceLocation& light) {
+    if (layers_.nextEvents) layers_.nextEvents.add(locate(light));
+}
+
+template <typename Radiance>
+template <typename ToColor>
+void BasicPathTally<Radiance>::end(int depth, ToColor toColor) {
+    Radiance arriving{0.f};  // at the vertex, from where the path went
+    for (std::size_t i = vertices_.size(); i-- > 0;) {
+        const Vertex& vertex = vertices_[i];
+        layers_.pathDepth.add(vertex.point, static_cast<float>(depth));
+        if (!saysThroughput_) continue;
+        const Radiance reflected = vertex.direct + vertex.factor * arriving;
+        if (layers_.reflected) layers_.reflected.add(vertex.point, toColor(reflected));
+        if (layers_.contribution) layers_.contribution.add(vertex.point, toColor(vertex.throughput * reflected));
+        arriving = vertex.hit + reflected;
+    }
+    vertices_.clear();
+    here_ = {};
+    located_ = true;
+    saysThroughput_ = false;
+}
+
+/// The tally of renderers whose radiance is a colour.
+using PathTally = BasicPathTally<Color>;
+// Compiled once, in the library.
+extern template class BasicPathTally<Color>;
+extern template void BasicPathTally<Color>::end(int, std::identity);
 
 }  // namespace emca
