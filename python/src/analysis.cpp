@@ -51,27 +51,25 @@ OutlierOptions outlierOptions(bool esd, double deviations, bool upperOnly, std::
             .significance = significance};
 }
 
-py::dict pathOutliers(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly,
-                      std::size_t maximum, double significance) {
+OutlierOptions outlierOptions(const std::string& quantity, bool esd, double deviations, bool upperOnly,
+                              std::size_t maximum, double significance) {
     OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
     options.quantity = toQuantity(quantity);
-    const auto detect = [&] {
-        const Unlocked unlocked;
-        return detectOutliers(paths, options);
-    };
-    return toDict(unwrap(detect()));
+    return options;
+}
+
+py::dict pathOutliers(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly,
+                      std::size_t maximum, double significance) {
+    const OutlierOptions options = outlierOptions(quantity, esd, deviations, upperOnly, maximum, significance);
+    return toDict(unwrap(unlocked([&] { return detectOutliers(paths, options); })));
 }
 
 py::list pathOutliersPerPixel(const PathSet& paths, const std::string& quantity, bool esd, double deviations, bool upperOnly,
                               std::size_t maximum, double significance) {
-    OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
-    options.quantity = toQuantity(quantity);
-    const auto detect = [&] {
-        const Unlocked unlocked;
-        return detectOutliersPerPixel(paths, options);
-    };
+    const OutlierOptions options = outlierOptions(quantity, esd, deviations, upperOnly, maximum, significance);
     py::list out;
-    for (PixelOutliers& one : unwrap(detect())) out.append(py::make_tuple(py::make_tuple(one.pixel.x, one.pixel.y), toDict(std::move(one.report))));
+    for (PixelOutliers& one : unwrap(unlocked([&] { return detectOutliersPerPixel(paths, options); })))
+        out.append(py::make_tuple(py::make_tuple(one.pixel.x, one.pixel.y), toDict(std::move(one.report))));
     return out;
 }
 
@@ -79,11 +77,7 @@ py::dict valueOutliers(py::handle given, bool esd, double deviations, bool upper
                        double significance) {
     const OutlierOptions options = outlierOptions(esd, deviations, upperOnly, maximum, significance);
     const std::vector<double> values = toDoubles(given);
-    const auto detect = [&] {
-        const Unlocked unlocked;
-        return detectOutliers(values, options);
-    };
-    return toDict(unwrap(detect()));
+    return toDict(unwrap(unlocked([&] { return detectOutliers(values, options); })));
 }
 
 py::dict toDict(const Summary& summary) {
@@ -143,11 +137,7 @@ py::tuple flipImages(py::handle given, py::handle givenReference, bool high, py:
             FlipExposures{three[0].cast<double>(), three[1].cast<double>(), three[2].cast<std::uint32_t>()};
     }
     const Image image = toImage(given), reference = toImage(givenReference);
-    const auto compared = [&] {
-        const Unlocked unlocked;
-        return flip(image, reference, options);
-    };
-    FlipResult result = unwrap(compared());
+    FlipResult result = unwrap(unlocked([&] { return flip(image, reference, options); }));
     return py::make_tuple(toOwnedArray(std::move(result.error)),
                           py::make_tuple(result.exposures.start, result.exposures.stop, result.exposures.count));
 }

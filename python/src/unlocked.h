@@ -18,6 +18,13 @@ class Unlocked {
     PyThreadState* state_;
 };
 
+/// What `work` returns, which needs nothing of the interpreter and must not touch it.
+template <typename Work>
+auto unlocked(Work&& work) {
+    const Unlocked released;
+    return work();
+}
+
 /// The interpreter exits: called once, by the thread that ends it. No other thread takes the lock back afterwards.
 void beginExit();
 
