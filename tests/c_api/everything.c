@@ -1,8 +1,8 @@
 #include "everything.h"
 
 #include <math.h>
+#include <pthread.h>  // not threads.h: ThreadSanitizer knows nothing of threads that it starts
 #include <string.h>
-#include <threads.h>
 
 static emca_color value_of(emca_pixel pixel, uint64_t sample, uint64_t seed) {
     const uint64_t bits = emca_seed(seed, pixel, sample);
@@ -165,7 +165,7 @@ typedef struct {
     int32_t depth;
 } stage;
 
-static int record_stage(void* given) {
+static void* record_stage(void* given) {
     const stage* s = given;
     for (uint32_t k = 0; k < s->settings->samples_per_pixel; ++k) {
         const emca_color value = value_of(s->pixel, k, s->settings->seed);
@@ -178,19 +178,19 @@ static int record_stage(void* given) {
         record_vertex(at, s->depth, value);
         if (s->depth == 3) emca_set_intersection_pos_envmap(at, (emca_vec3f){0, 0, 1000});
     }
-    return 0;
+    return NULL;
 }
 
 static emca_code in_stages(void* user, emca_pixel pixel, const emca_settings* settings, emca_recording* recording,
                            emca_monitor* monitor, emca_color* value, emca_error* error) {
     (void)user, (void)monitor;
     stage stages[4];
-    thrd_t threads[4];
+    pthread_t threads[4];
     for (int i = 0; i < 4; ++i) {
         stages[i] = (stage){recording, pixel, settings, i};
-        if (thrd_create(&threads[i], record_stage, &stages[i]) != thrd_success) return emca_fail(error, EMCA_RENDERER_FAILED, "No thread.");
+        if (pthread_create(&threads[i], NULL, record_stage, &stages[i]) != 0) return emca_fail(error, EMCA_RENDERER_FAILED, "No thread.");
     }
-    for (int i = 0; i < 4; ++i) thrd_join(threads[i], NULL);
+    for (int i = 0; i < 4; ++i) pthread_join(threads[i], NULL);
     emca_color sum = {0, 0, 0};
     for (uint32_t k = 0; k < settings->samples_per_pixel; ++k) {
         const emca_color one = value_of(pixel, k, settings->seed);
@@ -216,14 +216,14 @@ typedef struct {
     emca_error error;
 } job;
 
-static int run_job(void* given) {
+static void* run_job(void* given) {
     job* j = given;
     emca_scope* scope;
     j->code = emca_scope_open(j->what.recording, &j->what.pixel, &scope, &j->error);
-    if (j->code != EMCA_OK) return 1;
+    if (j->code != EMCA_OK) return NULL;
     j->value = pixel_value(j->what.pixel, j->what.settings->samples_per_pixel, j->what.settings->seed);
     j->code = emca_scope_close(scope, &j->error);
-    return 0;
+    return NULL;
 }
 
 static emca_code in_thread(void* user, emca_pixel pixel, const emca_settings* settings, emca_recording* recording,
@@ -232,9 +232,9 @@ static emca_code in_thread(void* user, emca_pixel pixel, const emca_settings* se
     job j;
     memset(&j, 0, sizeof j);
     j.what = (stage){recording, pixel, settings, 0};
-    thrd_t thread;
-    if (thrd_create(&thread, run_job, &j) != thrd_success) return emca_fail(error, EMCA_RENDERER_FAILED, "No thread.");
-    thrd_join(thread, NULL);
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, run_job, &j) != 0) return emca_fail(error, EMCA_RENDERER_FAILED, "No thread.");
+    pthread_join(thread, NULL);
     if (j.code != EMCA_OK) return emca_fail(error, j.code, j.error.message);
     *value = j.value;
     return EMCA_OK;
