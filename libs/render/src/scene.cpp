@@ -134,7 +134,7 @@ bool Scene::intersect(const Ray& ray, SurfaceInteraction& at) const {
 }
 
 float Scene::transmittance(const SurfaceInteraction& from, const EmitterSample& light) const {
-    const Vec3f origin = offsetOrigin(from.position, from.geometricNormal, from.positionError, light.direction);
+    const Vec3f origin = offsetOrigin(from.position, from.geometricNormal, from.positionError, light.position - from.position);
     // Aimed anew from there: parallel to the old direction it would pass by the limb of a sphere.
     const Vec3f toLight = light.position - origin;
     if (!hasMasks_) {

@@ -42,6 +42,13 @@ void MeshShape::prepareSampling() {
             triangleArea(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]])));
     }
     triangles_ = Distribution1D(areas);
+    if (faces_.size() == 2 && !reusesTriangleSample_)
+        parallelogram_ = Parallelogram::of(mesh_, std::max(faces_[0].positionError, faces_[1].positionError));
+}
+
+void MeshShape::reuseTriangleSample() {
+    reusesTriangleSample_ = true;
+    parallelogram_.reset();
 }
 
 void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) const {
@@ -67,24 +74,36 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
 }
 
 bool MeshShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
+    if (parallelogram_) {
+        sample.position = parallelogram_->at(u);
+        sample.normal = parallelogram_->normal();
+        sample.positionError = parallelogram_->positionError();
+        sample.face = parallelogram_->face(u);
+        sample.barycentrics = parallelogram_->barycentrics(u);
+    } else {
+        sampleTriangle(u, sample);
+    }
+    const Vec2f bary = sample.barycentrics;
+    sample.uv = bary;
+    if (!mesh_.uvs.empty()) {
+        const Triangle& t = mesh_.triangles[static_cast<std::size_t>(sample.face)];
+        sample.uv = mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;
+    }
+    return completeAreaSample(from, area_, sample);
+}
+
+void MeshShape::sampleTriangle(Vec2f u, ShapeSample& sample) const {
     assert(triangles_.size() > 0);
     // The triangle takes what it needs of u.x and the point gets the remainder: using u.x twice as it is correlates
     // triangle and point.
     const Distribution1D::Choice chosen = triangles_.sample(u.x);
     const Face& face = faces_[chosen.index];
     const Vec2f bary = squareToUniformTriangle({reusesTriangleSample_ ? u.x : chosen.remainder, u.y});
-
     sample.position = face.at(bary.x, bary.y);
     sample.normal = face.normal;
     sample.positionError = face.positionError;
-    sample.uv = bary;
     sample.face = static_cast<std::int32_t>(chosen.index);
     sample.barycentrics = bary;
-    if (!mesh_.uvs.empty()) {
-        const Triangle& t = mesh_.triangles[chosen.index];
-        sample.uv = mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;
-    }
-    return completeAreaSample(from, area_, sample);
 }
 
 float MeshShape::pdf(Vec3f, Vec3f direction, float distance, const SurfaceInteraction& at) const {

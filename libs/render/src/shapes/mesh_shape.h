@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "emca/render/distribution.h"
 #include "emca/render/shape.h"
 #include "emca/render/triangle_mesh.h"
+#include "shapes/parallelogram.h"
 
 namespace emca::render {
 
@@ -25,9 +27,11 @@ class MeshShape final : public Shape {
     void prepareSampling();
     /// Builds in the error of the paper's Figure 9, for those who want to find it: one random number chooses both the
     /// triangle and the point on it, so that parts of the triangles are never sampled. Before the shape joins a scene.
-    void reuseTriangleSample() { reusesTriangleSample_ = true; }
+    void reuseTriangleSample();
 
   private:
+    void sampleTriangle(Vec2f u, ShapeSample& sample) const;
+
     /// What every hit needs of a triangle, in one cache line.
     struct alignas(64) Face {
         Vec3f corner;           ///< first vertex
@@ -39,6 +43,7 @@ class MeshShape final : public Shape {
     TriangleMesh mesh_;
     std::vector<Face> faces_;   ///< one per triangle
     Distribution1D triangles_;  ///< by area; empty before prepareSampling()
+    std::optional<Parallelogram> parallelogram_;  ///< how to sample the mesh if it is one; empty before prepareSampling()
     float area_ = 0;
     bool reusesTriangleSample_ = false;
 };

@@ -24,9 +24,10 @@ inline float safeSqrt(float x) { return std::sqrt(std::max(x, 0.f)); }
 
 /// Sine and cosine of an angle of at most pi / 4, to the last place: the first terms of their series.
 inline std::pair<float, float> sinCosSmall(float angle) {
-    const float x = angle * angle;
-    return {angle * (1.f - x * (1.f / 6 - x * (1.f / 120 - x * (1.f / 5040 - x * (1.f / 362880))))),
-            1.f - x * (0.5f - x * (1.f / 24 - x * (1.f / 720 - x * (1.f / 40320))))};
+    // In pairs of terms, which do not wait for each other (Estrin's scheme).
+    const float x = angle * angle, x2 = x * x;
+    return {angle * ((1.f - x * (1.f / 6)) + x2 * ((1.f / 120 - x * (1.f / 5040)) + x2 * (1.f / 362880))),
+            (1.f - x * 0.5f) + x2 * ((1.f / 24 - x * (1.f / 720)) + x2 * (1.f / 40320))};
 }
 
 /// Exchanges a and b where `condition` holds, without a branch: where it is random, half of all branches would be
