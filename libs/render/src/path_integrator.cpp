@@ -71,7 +71,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder emc
             }
         }
 
-        estimate += emittedLight(at, ray, arrival, throughput, emca, surface);
+        if (at.emitter) estimate += emittedLight(at, ray, arrival, throughput, emca, surface);
         if (depth == settings_.maximumDepth || vertex == kLargestVertex) {
             emca.setIntersectionEvent(at.emitter ? Event::emission : Event::absorb, Lobe::none, at.bsdf->name());
             emca.setIntersectionEstimate(estimate);
@@ -139,7 +139,7 @@ Color PathIntegrator::radiance(Ray ray, Sampler& sampler, emca::PathRecorder emc
 
 Color PathIntegrator::emittedLight(const SurfaceInteraction& at, const Ray& ray, const Arrival& arrival,
                                    Color throughput, emca::PathRecorder emca, SurfaceTally* surface) const {
-    if (!at.emitter || (arrival.direct && settings_.hideEmitters)) return Color(0.f);
+    if (arrival.direct && settings_.hideEmitters) return Color(0.f);
     const Color emission = at.emitter->emitted(at, -ray.direction);
     emca.setIntersectionEmission(emission);
     if (isBlack(emission)) return emission;

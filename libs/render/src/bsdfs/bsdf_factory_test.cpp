@@ -154,9 +154,9 @@ TEST(BsdfFactory, MaskHasAnOpacity) {
     const auto board = node("texture", "checkerboard", {{"color0", Color(1.f)}, {"color1", Color(0.f)}});
     const auto holes = made(bsdfNode("mask", {}, {{"opacity", board}, {"", bsdfNode("diffuse")}}));
     SurfaceInteraction at;
-    at.uv = {0.25f, 0.25f};
+    at.barycentrics = {0.25f, 0.25f};
     EXPECT_EQ(holes->opacity(at), 1.f);
-    at.uv = {0.75f, 0.25f};
+    at.barycentrics = {0.75f, 0.25f};
     EXPECT_EQ(holes->opacity(at), 0.f);
 
     const Made coloured =

@@ -17,7 +17,7 @@ class ColorInput {
     explicit ColorInput(std::shared_ptr<const Texture> texture) : constant_(texture->mean()) {
         if (!texture->isConstant()) texture_ = std::move(texture);
     }
-    Color operator()(const SurfaceInteraction& at) const { return texture_ ? texture_->eval(at.uv) : constant_; }
+    Color operator()(const SurfaceInteraction& at) const { return texture_ ? texture_->eval(at.uv()) : constant_; }
     Color mean() const { return constant_; }
     bool isConstant() const { return !texture_; }
 
@@ -33,7 +33,7 @@ class NumberInput {
     explicit NumberInput(std::shared_ptr<const Texture> texture) : constant_(luminance(texture->mean())) {
         if (!texture->isConstant()) texture_ = std::move(texture);
     }
-    float operator()(const SurfaceInteraction& at) const { return texture_ ? texture_->evalScalar(at.uv) : constant_; }
+    float operator()(const SurfaceInteraction& at) const { return texture_ ? texture_->evalScalar(at.uv()) : constant_; }
     float mean() const { return constant_; }
     bool isConstant() const { return !texture_; }
 

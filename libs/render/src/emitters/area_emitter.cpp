@@ -14,9 +14,9 @@ std::optional<EmitterSample> AreaEmitter::sample(Vec3f from, Vec2f u) const {
         light.reset();
         return light;
     }
+    sample.radiance = constant_ ? mean_ : radiance_->eval(shape_.uv(sample.face, sample.barycentrics, sample.position));
     // A shadow ray ends a little above the light, as it starts a little above the lit surface.
     sample.position = sample.position + sample.normal * sample.positionError;
-    sample.radiance = constant_ ? mean_ : radiance_->eval(sample.uv);
     sample.shape = &shape_;
     return light;
 }
@@ -25,7 +25,7 @@ float AreaEmitter::power() const { return kPi * shape_.area() * luminance(mean_)
 
 Color AreaEmitter::emitted(const SurfaceInteraction& at, Vec3f direction) const {
     if (dot(at.geometricNormal, direction) <= 0.f) return Color(0.f);
-    return constant_ ? mean_ : radiance_->eval(at.uv);
+    return constant_ ? mean_ : radiance_->eval(at.uv());
 }
 
 float AreaEmitter::pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const {

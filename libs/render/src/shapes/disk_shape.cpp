@@ -18,6 +18,12 @@ Vec3d halfExtent(Vec3d x, Vec3d y) {
     return {std::hypot(x.x, y.x), std::hypot(x.y, y.y), std::hypot(x.z, y.z)};
 }
 
+/// Angle of a point of the plane, in turns from the first axis: in [0, 1].
+float turn(Vec2d p) {
+    const double turns = std::atan2(p.y, p.x) * (0.5 * double(kInvPi));
+    return static_cast<float>(turns < 0 ? turns + 1 : turns);
+}
+
 }  // namespace
 
 DiskShape::DiskShape(const DiskGeometry& disk, TriangleMesh tessellation, bool flipped)
@@ -61,17 +67,17 @@ void DiskShape::interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& 
     at.geometricNormal = narrow(normal_) * normalSign_;
     at.shading = Frame::fromNormal(at.geometricNormal);
     at.positionError = positionError_;
-    const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y);
-    const float angle = std::atan2(y, x) * (0.5f * kInvPi);
-    at.uv = {std::sqrt(x * x + y * y), angle < 0.f ? angle + 1.f : angle};
-    at.face = diskFace(at.uv.y);
+    at.face = diskFace(turn(p));
     at.barycentrics = kNoBarycentrics;
 }
 
 std::int32_t DiskShape::faceAt(Vec3f position) const {
+    return diskFace(turn(planeCoordinates(widen(position))));
+}
+
+Vec2f DiskShape::uv(std::int32_t, Vec2f, Vec3f position) const {
     const Vec2d p = planeCoordinates(widen(position));
-    const double turn = std::atan2(p.y, p.x) * (0.5 * double(kInvPi));
-    return diskFace(static_cast<float>(turn < 0 ? turn + 1 : turn));
+    return {static_cast<float>(std::sqrt(p.x * p.x + p.y * p.y)), turn(p)};
 }
 
 bool DiskShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
@@ -79,8 +85,6 @@ bool DiskShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
     sample.position = narrow(center_ + axisX_ * double(p.x) + axisY_ * double(p.y));
     sample.normal = narrow(normal_) * normalSign_;
     sample.positionError = positionError_;
-    const float angle = std::atan2(p.y, p.x) * (0.5f * kInvPi);
-    sample.uv = {std::sqrt(p.x * p.x + p.y * p.y), angle < 0.f ? angle + 1.f : angle};
     return completeAreaSample(from, area_, sample);
 }
 

@@ -15,6 +15,7 @@ class DiskShape final : public Shape {
     float area() const override { return area_; }
     bool sample(Vec3f from, Vec2f u, ShapeSample& sample) const override;
     float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
+    Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
     std::int32_t faceAt(Vec3f position) const override;

@@ -53,7 +53,6 @@ void MeshShape::reuseTriangleSample() {
 
 void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) const {
     const Face& face = faces_[hit.primitive];
-    const float w = 1.f - hit.u - hit.v;
     // From the vertices, not along the ray: the error then does not grow with the distance to the ray's origin.
     at.position = face.at(hit.u, hit.v);
     at.geometricNormal = face.normal;
@@ -62,15 +61,19 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
     at.barycentrics = {hit.u, hit.v};
 
     Vec3f normal = face.normal;
-    const Triangle& t = mesh_.triangles[hit.primitive];
     if (!mesh_.normals.empty()) {
+        const Triangle& t = mesh_.triangles[hit.primitive];
+        const float w = 1.f - hit.u - hit.v;
         const Vec3f smooth = mesh_.normals[t[0]] * w + mesh_.normals[t[1]] * hit.u + mesh_.normals[t[2]] * hit.v;
         if (dot(smooth, smooth) > 0.f) normal = normalize(smooth);
     }
     at.shading = Frame::fromNormal(normal);
-    // Without texture coordinates the barycentric ones, as Mitsuba gives.
-    at.uv = {hit.u, hit.v};
-    if (!mesh_.uvs.empty()) at.uv = mesh_.uvs[t[0]] * w + mesh_.uvs[t[1]] * hit.u + mesh_.uvs[t[2]] * hit.v;
+}
+
+Vec2f MeshShape::uv(std::int32_t face, Vec2f bary, Vec3f) const {
+    if (mesh_.uvs.empty()) return bary;  // as Mitsuba gives
+    const Triangle& t = mesh_.triangles[static_cast<std::size_t>(face)];
+    return mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;
 }
 
 bool MeshShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
@@ -82,12 +85,6 @@ bool MeshShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
         sample.barycentrics = parallelogram_->barycentrics(u);
     } else {
         sampleTriangle(u, sample);
-    }
-    const Vec2f bary = sample.barycentrics;
-    sample.uv = bary;
-    if (!mesh_.uvs.empty()) {
-        const Triangle& t = mesh_.triangles[static_cast<std::size_t>(sample.face)];
-        sample.uv = mesh_.uvs[t[0]] * (1.f - bary.x - bary.y) + mesh_.uvs[t[1]] * bary.x + mesh_.uvs[t[2]] * bary.y;
     }
     return completeAreaSample(from, area_, sample);
 }

@@ -19,6 +19,7 @@ class MeshShape final : public Shape {
     float area() const override { return area_; }
     bool sample(Vec3f from, Vec2f u, ShapeSample& sample) const override;
     float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
+    Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
     std::uint64_t triangleCount() const override { return mesh_.triangles.size(); }

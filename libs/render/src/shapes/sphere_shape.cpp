@@ -51,19 +51,22 @@ void SphereShape::interact(const Ray& ray, const RayHit& hit, SurfaceInteraction
     at.geometricNormal = narrow(normal) * normalSign_;
     at.shading = Frame::fromNormal(at.geometricNormal);
     at.positionError = positionError_;
-    const Vec3f local = normalize(toObject_.vector(narrow(normal)));
-    at.uv = uvOf(local);
-    at.face = sphereFace(local);
+    at.face = sphereFace(normalize(toObject_.vector(narrow(normal))));
     at.barycentrics = kNoBarycentrics;
 }
 
-Vec2f SphereShape::uvOf(Vec3f local) const {
+Vec2f SphereShape::uv(std::int32_t, Vec2f, Vec3f position) const {
+    const Vec3f local = toLocal(position);
     const float azimuth = std::atan2(local.y, local.x) * (0.5f * kInvPi);
     return {azimuth < 0.f ? azimuth + 1.f : azimuth, std::acos(std::clamp(local.z, -1.f, 1.f)) * kInvPi};
 }
 
 std::int32_t SphereShape::faceAt(Vec3f position) const {
-    return sphereFace(normalize(toObject_.vector(narrow(normalize(widen(position) - center_)))));
+    return sphereFace(toLocal(position));
+}
+
+Vec3f SphereShape::toLocal(Vec3f position) const {
+    return normalize(toObject_.vector(narrow(normalize(widen(position) - center_))));
 }
 
 float SphereShape::area() const { return static_cast<float>(4 * kPiDouble * radius_ * radius_); }
@@ -89,7 +92,6 @@ bool SphereShape::sample(Vec3f from, Vec2f u, ShapeSample& sample) const {
     sample.position = narrow(center_ + normal * radius_);
     sample.normal = narrow(normal) * normalSign_;
     sample.positionError = positionError_;
-    sample.uv = uvOf(normalize(toObject_.vector(narrow(normal))));
     sample.direction = narrow(direction);
     sample.distance = static_cast<float>(toSurface);
     sample.pdf = static_cast<float>(1 / (2 * kPiDouble * coneSize));
@@ -101,7 +103,6 @@ bool SphereShape::sampleFromInside(Vec3f from, Vec2f u, ShapeSample& sample) con
     sample.position = narrow(center_ + widen(normal) * radius_);
     sample.normal = normal * normalSign_;
     sample.positionError = positionError_;
-    sample.uv = uvOf(normalize(toObject_.vector(normal)));
     return completeAreaSample(from, area(), sample);
 }
 

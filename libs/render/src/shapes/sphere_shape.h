@@ -18,6 +18,7 @@ class SphereShape final : public Shape {
     /// points are.
     bool sample(Vec3f from, Vec2f u, ShapeSample& sample) const override;
     float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const override;
+    Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
     std::int32_t faceAt(Vec3f position) const override;
@@ -30,8 +31,8 @@ class SphereShape final : public Shape {
     Vec3f upperCorner() const;
 
   private:
+    Vec3f toLocal(Vec3f position) const;  ///< direction from the centre, in object space
     bool sampleFromInside(Vec3f from, Vec2f u, ShapeSample& sample) const;
-    Vec2f uvOf(Vec3f local) const;
 
     Vec3d center_;
     double radius_;

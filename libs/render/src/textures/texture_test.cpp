@@ -226,11 +226,11 @@ TEST_F(TextureTest, MaterialsReadTextures) {
     const auto board = node("texture", "checkerboard", {{"color0", Color(1.f)}, {"color1", Color(0.f)}});
     const auto bsdf = testing::made(testing::bsdfNode("diffuse", {}, {{"reflectance", board}}));
     SurfaceInteraction at;
-    at.uv = {0.25f, 0.25f};
+    at.barycentrics = {0.25f, 0.25f};
     const Vec3f up{0, 0, 1};
     EXPECT_GT(bsdf->eval(at, up, up).g, 0.3f);
     EXPECT_TRUE(bsdf->sample(at, up, 0.f, {0.4f, 0.4f}));
-    at.uv = {0.75f, 0.25f};
+    at.barycentrics = {0.75f, 0.25f};
     EXPECT_TRUE(isBlack(bsdf->eval(at, up, up)));
     EXPECT_FALSE(bsdf->sample(at, up, 0.f, {0.4f, 0.4f})) << "a black surface ends the path";
 }

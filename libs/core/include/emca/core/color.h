@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace emca {
 
@@ -35,7 +37,11 @@ constexpr Color& operator/=(Color& a, float s) { return a = a / s; }
 /// Relative luminance Y of linear Rec. 709 (ITU-R BT.709-6, section 3.2).
 constexpr float luminance(Color c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 constexpr float maxComponent(Color c) { return std::max(c.r, std::max(c.g, c.b)); }
-constexpr bool isBlack(Color c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+constexpr bool isBlack(Color c) {
+    // By the bits, of which a zero of either sign has none but the sign: one test instead of three comparisons.
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    return ((bits(c.r) | bits(c.g) | bits(c.b)) << 1) == 0;
+}
 inline bool isFinite(Color c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
 
 }  // namespace emca

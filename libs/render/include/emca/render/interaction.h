@@ -21,7 +21,6 @@ struct SurfaceInteraction {
     Vec3f geometricNormal;   ///< unit, of the triangle or analytic shape, not turned towards the ray
     Frame shading;           ///< shading.n: interpolated or mapped normal, unit
     Vec3f wo;                ///< local to `shading`: unit, back along the ray (towards the camera)
-    Vec2f uv;                ///< texture coordinates
     float distance = 0;      ///< along the ray
     float positionError = 0; ///< bound on how far rounding put `position` off the surface: offsetOrigin() needs it
     std::int32_t mesh = -1;  ///< index into Scene::meshes(), as the explorer sees it
@@ -30,6 +29,9 @@ struct SurfaceInteraction {
     const Shape* shape = nullptr;
     const Bsdf* bsdf = nullptr;        ///< never null after Scene::intersect
     const Emitter* emitter = nullptr;  ///< area light on this surface, if any
+
+    /// Texture coordinates. Found when asked for: few materials have textures. Without a shape, the barycentric ones.
+    Vec2f uv() const;
 
     Vec3f toWorld(Vec3f local) const { return shading.toWorld(local); }
     Vec3f toLocal(Vec3f world) const { return shading.toLocal(world); }

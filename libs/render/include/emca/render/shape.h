@@ -30,7 +30,6 @@ struct ShapeSample {
     float distance = 0;
     Vec3f normal;               ///< geometric, unit, towards the front
     float positionError = 0;    ///< as SurfaceInteraction's
-    Vec2f uv;
     float pdf = 0;              ///< per steradian as seen from the place that asked
     std::int32_t face = -1;     ///< triangle of a mesh; -1 on analytic shapes: Shape::faceAt() knows
     Vec2f barycentrics = kNoBarycentrics;  ///< as SurfaceInteraction's
@@ -53,7 +52,7 @@ class Shape {
   public:
     virtual ~Shape() = default;
 
-    /// Fills in position, normals, frame, uv, face, barycentrics and positionError; leaves the rest alone.
+    /// Fills in position, normals, frame, face, barycentrics and positionError; leaves the rest alone.
     virtual void interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& at) const = 0;
     virtual float area() const = 0;  ///< square scene units
     /// Chooses a point to be lit by, as seen from `from`. Written in place, as it is part of a light's sample.
@@ -62,6 +61,10 @@ class Shape {
     /// Density with which sample() chooses the point that a ray from `from` along `direction` met, per steradian.
     /// \param distance  from `from` to the point
     virtual float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const = 0;
+
+    /// Texture coordinates of a point of the surface, of which meshes read face and barycentrics, analytic shapes the
+    /// position.
+    virtual Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const = 0;
 
     /// Geometry for the ray tracer; the caller attaches and releases it. The shape must outlive it and stay in place.
     virtual RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const = 0;
