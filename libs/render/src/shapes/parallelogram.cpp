@@ -42,6 +42,8 @@ std::optional<Parallelogram> Parallelogram::of(const TriangleMesh& mesh, float p
     const Vec3f normal = cross(shape.first_, shape.second_);
     if (!(dot(normal, normal) > 0.f)) return std::nullopt;
     shape.normal_ = normalize(normal);
+    shape.dualFirst_ = cross(shape.second_, normal) / dot(normal, normal);
+    shape.dualSecond_ = cross(normal, shape.first_) / dot(normal, normal);
     shape.positionError_ = positionError;
 
     // Weights of the vertices from the apex on, as {1, u.x, u.y} times:

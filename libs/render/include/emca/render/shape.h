@@ -31,7 +31,7 @@ struct ShapeSample {
     Vec3f normal;               ///< geometric, unit, towards the front
     float positionError = 0;    ///< as SurfaceInteraction's
     float pdf = 0;              ///< per steradian as seen from the place that asked
-    std::int32_t face = -1;     ///< triangle of a mesh; -1 on analytic shapes: Shape::faceAt() knows
+    std::int32_t face = -1;     ///< triangle of a mesh; -1: Shape::faceAt() knows
     Vec2f barycentrics = kNoBarycentrics;  ///< as SurfaceInteraction's
 };
 
@@ -62,8 +62,8 @@ class Shape {
     /// \param distance  from `from` to the point
     virtual float pdf(Vec3f from, Vec3f direction, float distance, const SurfaceInteraction& at) const = 0;
 
-    /// Texture coordinates of a point of the surface, of which meshes read face and barycentrics, analytic shapes the
-    /// position.
+    /// Texture coordinates of a point of the surface. Where points have a face, that and the barycentric coordinates
+    /// are read, else the position.
     virtual Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const = 0;
 
     /// Geometry for the ray tracer; the caller attaches and releases it. The shape must outlive it and stay in place.
@@ -71,8 +71,8 @@ class Shape {
     /// Triangles for the explorer; `face` of interact() counts these. World space.
     virtual emca::Mesh displayMesh() const = 0;
     virtual std::uint64_t triangleCount() const = 0;  ///< of displayMesh()
-    /// Of analytic shapes: the triangle of displayMesh() that stands for a point of the surface. -1: a mesh, whose points
-    /// come with their face.
+    /// The triangle of displayMesh() at a point of the surface, where points come without their face. -1: a mesh, whose
+    /// points have one.
     virtual std::int32_t faceAt(Vec3f /*position*/) const { return -1; }
 
     std::string name;                          ///< id in the scene file, else the plugin's type
