@@ -52,14 +52,14 @@ void useDefaultCamera(const SceneDocument& document, SceneParts& parts) {
                   "The scene has no sensor: it is seen from the side, with all of it in view.");
 }
 
-/// Lets images be prepared for while the first meshes are read. Nodes may be referred to many times.
-void prepareImages(const SceneNode& node, std::set<const SceneNode*>& seen) {
+/// Has images read while meshes are. Nodes may be referred to many times.
+void readImagesAhead(const SceneNode& node, FactoryContext& factories, std::set<const SceneNode*>& seen) {
     if (!seen.insert(&node).second) return;
-    if (const auto file = node.properties.find("filename");
-        file != node.properties.end() && (node.type == "bitmap" || node.type == "envmap")) {
+    if (node.kind == "texture") readImageAhead(node, factories);
+    if (const auto file = node.properties.find("filename"); file != node.properties.end() && node.type == "envmap") {
         if (const auto* name = std::get_if<std::string>(&file->second.value)) imageio::prepareFor(*name);
     }
-    for (const SceneNode::Child& child : node.children) prepareImages(*child.node, seen);
+    for (const SceneNode::Child& child : node.children) readImagesAhead(*child.node, factories, seen);
 }
 
 void buildParts(const SceneNode& root, SceneBuilding& building) {
@@ -94,7 +94,10 @@ Result<std::shared_ptr<const Scene>> buildScene(const SceneDocument& document, s
     SceneBuilding building{parts, document.searchFolders, factories};
 
     std::set<const SceneNode*> seen;
-    prepareImages(*document.root, seen);
+    for (const SceneNode::Child& child : document.root->children) {
+        // Materials that no shape refers to are not looked at: their images may be missing.
+        if (child.node->kind == "shape" || child.node->kind == "emitter") readImagesAhead(*child.node, factories, seen);
+    }
     buildParts(*document.root, building);
     const SceneNode* sensor = nullptr;
     for (const SceneNode::Child& child : document.root->children) {

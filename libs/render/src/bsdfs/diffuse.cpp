@@ -43,7 +43,7 @@ class Diffuse final : public Bsdf {
         sample.event = Event::reflect;
         sample.lobe = Lobe::diffuse;
         sample.wi.z *= front;
-        if (!(sample.pdf > 0.f)) result.reset();
+        if (!(sample.pdf > 0.f) || isBlack(sample.weight)) result.reset();
         return result;
     }
 

@@ -6,6 +6,7 @@
 #include "emca/render/property_reader.h"
 #include "textures/bitmap_texture.h"
 #include "textures/checkerboard_texture.h"
+#include "textures/image_ahead.h"
 
 namespace emca::render {
 
@@ -43,27 +44,33 @@ BitmapTexture::Filter readFilter(PropertyReader& read) {
     return BitmapTexture::Filter::bilinear;
 }
 
-std::shared_ptr<const TextureImage> readImage(PropertyReader& read, FactoryContext& context) {
+/// The image that a bitmap names, being read or read already; null if it names none.
+std::shared_ptr<ImageAhead> imageOf(PropertyReader& read, FactoryContext& context) {
     TextureImage::Options options;
     options.channel = read.text("channel", "");
     if (const auto gamma = read.number("gamma"); gamma && *gamma > 0.0) options.gamma = static_cast<float>(*gamma);
     if (read.flag("raw", false)) options.gamma = 1.f;
 
     const auto file = read.file("filename");
-    if (!file) {
+    if (!file) return nullptr;
+    const std::string key = file->resolved.string() + '\n' + options.channel + '\n' +
+                            (options.gamma ? std::to_string(*options.gamma) : "automatic");
+    std::shared_ptr<ImageAhead>& image = context.images[key];
+    if (!image) image = std::make_shared<ImageAhead>(file->resolved, options);
+    return image;
+}
+
+std::shared_ptr<const TextureImage> readImage(PropertyReader& read, FactoryContext& context) {
+    const auto ahead = imageOf(read, context);
+    if (!ahead) {
         read.report(read.description() + " names no file; a grey of 0.5 takes its place.");
         return nullptr;
     }
-    const std::string key = file->resolved.string() + '\n' + options.channel + '\n' +
-                            (options.gamma ? std::to_string(*options.gamma) : "automatic");
-    if (const auto known = context.images.find(key); known != context.images.end()) return known->second;
-
-    auto image = TextureImage::read(file->resolved, options);
+    const ImageAhead::Image& image = ahead->wait();
     if (!image) {
         read.reportAt("filename", image.error().message + " A grey of 0.5 takes its place.");
         return nullptr;
     }
-    context.images.emplace(key, *image);
     return *image;
 }
 
@@ -104,6 +111,13 @@ std::shared_ptr<const Texture> makeUnknown(PropertyReader& read, FactoryContext&
 }
 
 }  // namespace
+
+void readImageAhead(const SceneNode& texture, FactoryContext& context) {
+    if (texture.type != "bitmap") return;
+    std::vector<Diagnostic> later;  // makeTexture() says it
+    PropertyReader read(texture, later, context.searchFolders);
+    imageOf(read, context);
+}
 
 std::shared_ptr<const Texture> makeTexture(const SceneNode& node, FactoryContext& context) {
     if (const auto known = context.textures.find(&node); known != context.textures.end()) return known->second;

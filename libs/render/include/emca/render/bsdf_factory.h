@@ -13,7 +13,7 @@
 
 namespace emca::render {
 
-class TextureImage;
+class ImageAhead;
 
 /// What the factories of one scene share. Nodes that are referenced several times become one object, and an image file
 /// is loaded once. One thread at a time.
@@ -22,12 +22,16 @@ struct FactoryContext {
     std::span<const std::filesystem::path> searchFolders;     ///< SceneDocument::searchFolders; outlives the context
     std::map<const SceneNode*, std::shared_ptr<const Bsdf>> bsdfs = {};        ///< by node, which must stay alive
     std::map<const SceneNode*, std::shared_ptr<const Texture>> textures = {};  ///< by node, which must stay alive
-    std::map<std::string, std::shared_ptr<const TextureImage>> images = {};    ///< by file and how it is read
+    std::map<std::string, std::shared_ptr<ImageAhead>> images = {};            ///< by file and how it is read
 };
 
 /// The material that a node of kind "bsdf" describes, with all textures and nested materials. Never null: a type or
 /// value that is not known is named in a diagnostic and replaced by the nearest one that is.
 std::shared_ptr<const Bsdf> makeBsdf(const SceneNode& node, FactoryContext& context);
+
+/// Begins to read the image file of a texture, if it has one, beside the caller's other work: makeTexture() then waits
+/// for what is missing.
+void readImageAhead(const SceneNode& texture, FactoryContext& context);
 
 /// The texture that a node of kind "texture" describes. Never null: a file that cannot be read and an unknown type are
 /// named in a diagnostic and replaced by a grey of 0.5.
