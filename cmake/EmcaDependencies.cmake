@@ -22,7 +22,9 @@ if(EMCA_ASIO_INCLUDE)
   set(EMCA_HAVE_asio TRUE)
   add_library(emca_asio INTERFACE)
   target_include_directories(emca_asio SYSTEM INTERFACE ${EMCA_ASIO_INCLUDE})
-  target_compile_definitions(emca_asio INTERFACE ASIO_STANDALONE ASIO_NO_DEPRECATED)
+  # Asio looks for aligned_alloc in what the standard library has said so far: a file that includes Asio first would free
+  # by operator delete what another one allocated by aligned_alloc.
+  target_compile_definitions(emca_asio INTERFACE ASIO_STANDALONE ASIO_NO_DEPRECATED ASIO_HAS_STD_ALIGNED_ALLOC)
   target_link_libraries(emca_asio INTERFACE Threads::Threads)
 endif()
 
