@@ -160,9 +160,9 @@ PublishedServerForTests::PublishedServerForTests(Show show) : show_(std::move(sh
 
 PublishedServerForTests::~PublishedServerForTests() {
     ending_ = true;
-    ::shutdown(acceptor_.native_handle(), SHUT_RDWR);  // wakes who waits there
     {
         const std::lock_guard lock(mutex_);
+        if (acceptor_.is_open()) ::shutdown(acceptor_.native_handle(), SHUT_RDWR);  // wakes who waits there
         if (socket_.is_open()) ::shutdown(socket_.native_handle(), SHUT_RDWR);
     }
     thread_.join();
@@ -195,6 +195,7 @@ void PublishedServerForTests::serve() {
         const std::lock_guard lock(mutex_);
         socket_.close(error);
     }
+    const std::lock_guard lock(mutex_);
     acceptor_.close();
 }
 
