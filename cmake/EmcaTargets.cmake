@@ -19,6 +19,21 @@ if(EMCA_SANITIZE)
   target_link_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE})
 endif()
 
+# A build that counts how often each branch is taken, then one that is optimised for that: scripts/build-profiled.sh.
+set(EMCA_PROFILE "" CACHE STRING "generate or use: a build in two steps (scripts/build-profiled.sh)")
+if(EMCA_PROFILE AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  message(FATAL_ERROR "EMCA_PROFILE asks for GCC, but the compiler is ${CMAKE_CXX_COMPILER_ID}: leave it out, or choose GCC.")
+elseif(EMCA_PROFILE STREQUAL "generate")
+  target_compile_options(emca_flags INTERFACE -fprofile-generate -fprofile-update=prefer-atomic)
+  target_link_options(emca_flags INTERFACE -fprofile-generate)
+elseif(EMCA_PROFILE STREQUAL "use")
+  # What the scenes did not run is optimised as without a profile.
+  target_compile_options(emca_flags INTERFACE -fprofile-use -fprofile-correction -fprofile-partial-training -Wno-missing-profile)
+  set(CMAKE_INTERPROCEDURAL_OPTIMIZATION ON)
+elseif(EMCA_PROFILE)
+  message(FATAL_ERROR "EMCA_PROFILE is \"${EMCA_PROFILE}\", but known are generate and use.")
+endif()
+
 # emca_add_library(NAME [SHARED] SOURCES... [PUBLIC targets] [PRIVATE targets] [TESTS files] [TEST_LIBRARIES targets])
 # Makes emca::NAME from libs/NAME, and the program NAME_test from its *_test.cpp files. SHARED: for languages that know
 # nothing of C++; its headers ask for no standard of that.
