@@ -4,10 +4,6 @@
 
 namespace emca {
 
-namespace {
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ull;  // 2^64 / golden ratio: the increment of SplitMix64
-}
-
 SeedMap::SeedMap(std::uint32_t width, std::vector<std::uint32_t> seeds, std::uint64_t masterSeed)
     : masterSeed_(masterSeed), width_(width), stored_(std::move(seeds)) {
     assert(width > 0 && stored_.size() % width == 0);
@@ -21,11 +17,7 @@ std::uint64_t SeedMap::seed(Pixel pixel) const {
         assert(pixel.x < width_ && index < stored_.size());
         own = stored_[index];
     }
-    return mix64(mix64(masterSeed_ + kGolden) + own * kGolden + kGolden);
-}
-
-std::uint64_t SeedMap::seed(Pixel pixel, std::uint64_t sample) const {
-    return mix64(seed(pixel) + (sample + 1) * kGolden);
+    return mix64(mix64(masterSeed_ + kGolden64) + own * kGolden64 + kGolden64);
 }
 
 }  // namespace emca

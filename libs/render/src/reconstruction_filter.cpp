@@ -50,7 +50,7 @@ ReconstructionFilter ReconstructionFilter::gaussian(float standardDeviation) {
     return filter;
 }
 
-float ReconstructionFilter::sample(float u) const {
+float ReconstructionFilter::sampleShaped(float u) const {
     switch (kind_) {
         case FilterKind::tent:
             return radius_ * (u < 0.5f ? std::sqrt(2.f * u) - 1.f : 1.f - std::sqrt(2.f * (1.f - u)));

@@ -22,30 +22,28 @@ DielectricFresnel fresnelDielectric(float cosIncident, float eta) {
     return {std::min(reflectance, 1.f), cosIncident > 0.f ? -cosT : cosT};
 }
 
-namespace {
-
-float fresnelConductor(float cosIncident, float eta, float k) {
-    const float cos2 = square(cosIncident);
-    const float sin2 = 1.f - cos2;
-    const float t = square(eta) - square(k) - sin2;
-    const float a2PlusB2 = safeSqrt(square(t) + 4.f * square(eta) * square(k));
-    const float a = safeSqrt(0.5f * (a2PlusB2 + t));
-    const float sum = a2PlusB2 + cos2;
-    const float cross = 2.f * a * cosIncident;
-    const float perpendicular = (sum - cross) / (sum + cross);
-    const float sum2 = a2PlusB2 * cos2 + square(sin2);
-    const float cross2 = cross * sin2;
-    const float parallel = perpendicular * (sum2 - cross2) / (sum2 + cross2);
-    return std::clamp(0.5f * (perpendicular + parallel), 0.f, 1.f);
-}
-
-}  // namespace
-
 Color fresnelConductor(float cosIncident, Color eta, Color k) {
     // At cosine 0 both fractions above are 1 in the limit, but 0/0 for an index of 1.
     if (cosIncident <= 0.f) return Color(1.f);
-    return {fresnelConductor(cosIncident, eta.r, k.r), fresnelConductor(cosIncident, eta.g, k.g),
-            fresnelConductor(cosIncident, eta.b, k.b)};
+    const float cos2 = square(cosIncident);
+    const float sin2 = 1.f - cos2;
+    // Four lanes, so that the compiler takes the roots and quotients of all channels at once.
+    const float etas[4] = {eta.r, eta.g, eta.b, eta.b}, ks[4] = {k.r, k.g, k.b, k.b};
+    float reflectance[4];
+    for (int i = 0; i < 4; ++i) {
+        const float eta2 = square(etas[i]), k2 = square(ks[i]);
+        const float t = eta2 - k2 - sin2;
+        const float a2PlusB2 = safeSqrt(square(t) + 4.f * eta2 * k2);
+        const float a = safeSqrt(0.5f * (a2PlusB2 + t));
+        const float sum = a2PlusB2 + cos2;
+        const float cross = 2.f * a * cosIncident;
+        const float perpendicular = (sum - cross) / (sum + cross);
+        const float sum2 = a2PlusB2 * cos2 + square(sin2);
+        const float cross2 = cross * sin2;
+        const float parallel = perpendicular * (sum2 - cross2) / (sum2 + cross2);
+        reflectance[i] = std::clamp(0.5f * (perpendicular + parallel), 0.f, 1.f);
+    }
+    return {reflectance[0], reflectance[1], reflectance[2]};
 }
 
 float fresnelDiffuseReflectance(float eta) {

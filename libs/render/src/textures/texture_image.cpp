@@ -42,7 +42,7 @@ float decode(float encoded, std::optional<float> gamma) {
 
 /// Keeps `count` channels of each pixel from the given first one.
 template <typename T>
-std::vector<T> pickChannels(const std::vector<T>& pixels, std::size_t stride, std::size_t first, std::size_t count) {
+std::vector<T> pickChannels(std::vector<T> pixels, std::size_t stride, std::size_t first, std::size_t count) {
     if (stride == count) return pixels;
     std::vector<T> picked;
     picked.reserve(pixels.size() / stride * count);
@@ -55,7 +55,7 @@ std::vector<T> pickChannels(const std::vector<T>& pixels, std::size_t stride, st
 
 using Read = Result<std::shared_ptr<const TextureImage>>;
 
-Read fromStored(const imageio::StoredImage& image, const std::string& name, const TextureImage::Options& options) {
+Read fromStored(imageio::StoredImage image, const std::string& name, const TextureImage::Options& options) {
     const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
     const std::size_t stride = image.channels.size();
     std::size_t first = 0, count = stride >= 3 ? 3 : 1;
@@ -75,10 +75,10 @@ Read fromStored(const imageio::StoredImage& image, const std::string& name, cons
         std::array<float, 256> toLinear;
         for (std::size_t i = 0; i < toLinear.size(); ++i) toLinear[i] = decode(static_cast<float>(i) / 255.f, gamma);
         return std::make_shared<const TextureImage>(width, height, static_cast<int>(count),
-                                                    pickChannels(image.bytes, stride, first, count), toLinear);
+                                                    pickChannels(std::move(image.bytes), stride, first, count), toLinear);
     }
     if (!gamma && !image.wholeNumbers) gamma = 1.f;
-    std::vector<float> floats = pickChannels(image.floats, stride, first, count);
+    std::vector<float> floats = pickChannels(std::move(image.floats), stride, first, count);
     for (float& value : floats) {
         value = decode(value, gamma);
         if (!std::isfinite(value)) value = 0.f;  // one bad pixel would blacken every bilinear neighbour with NaN
@@ -89,27 +89,28 @@ Read fromStored(const imageio::StoredImage& image, const std::string& name, cons
 }  // namespace
 
 Read TextureImage::read(const std::filesystem::path& file, const Options& options) {
-    const Result<imageio::StoredImage> image = imageio::readStored(file);
+    Result<imageio::StoredImage> image = imageio::readStored(file);
     if (!image) return image.error();
     try {
-        return fromStored(*image, file.string(), options);
+        return fromStored(std::move(*image), file.string(), options);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::outOfMemory, "There is not enough memory for the texture " + file.string() + "."};
     }
 }
 
 TextureImage::TextureImage(int width, int height, int channels, std::vector<float> linear)
-    : width_(width), height_(height), channels_(channels), floats_(std::move(linear)) {
-    computeMean();
-}
+    : width_(width), height_(height), channels_(channels), floats_(std::move(linear)) {}
 
 TextureImage::TextureImage(int width, int height, int channels, std::vector<std::uint8_t> bytes,
                            const std::array<float, 256>& toLinear)
-    : width_(width), height_(height), channels_(channels), bytes_(std::move(bytes)), toLinear_(toLinear) {
-    computeMean();
+    : width_(width), height_(height), channels_(channels), bytes_(std::move(bytes)), toLinear_(toLinear) {}
+
+Color TextureImage::mean() const {
+    std::call_once(meanComputed_, [this] { mean_ = computedMean(); });
+    return mean_;
 }
 
-void TextureImage::computeMean() {
+Color TextureImage::computedMean() const {
     double r = 0, g = 0, b = 0;
     for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
@@ -120,7 +121,7 @@ void TextureImage::computeMean() {
         }
     }
     const double n = static_cast<double>(width_) * height_;
-    mean_ = {static_cast<float>(r / n), static_cast<float>(g / n), static_cast<float>(b / n)};
+    return {static_cast<float>(r / n), static_cast<float>(g / n), static_cast<float>(b / n)};
 }
 
 float linearFromSrgb(float encoded) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,16 +49,18 @@ class TextureImage {
         if (channels_ == 1) return Color(floats_[at]);
         return {floats_[at], floats_[at + 1], floats_[at + 2]};
     }
-    Color mean() const { return mean_; }
+    /// Average over all pixels; computed when first asked for. Any thread.
+    Color mean() const;
 
   private:
-    void computeMean();
+    Color computedMean() const;
 
     int width_, height_, channels_;
     std::vector<std::uint8_t> bytes_;
     std::array<float, 256> toLinear_{};
     std::vector<float> floats_;
-    Color mean_;
+    mutable Color mean_;
+    mutable std::once_flag meanComputed_;
 };
 
 /// Linear value of an sRGB-encoded one in [0, 1] (IEC 61966-2-1).

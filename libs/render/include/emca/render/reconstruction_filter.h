@@ -33,7 +33,8 @@ class ReconstructionFilter {
 
   private:
     ReconstructionFilter(FilterKind kind, float radius) : kind_(kind), radius_(radius) {}
-    float sample(float u) const;
+    float sample(float u) const { return kind_ == FilterKind::box ? radius_ * (2.f * u - 1.f) : sampleShaped(u); }
+    float sampleShaped(float u) const;
     float pdf(float offset) const;
 
     FilterKind kind_;

@@ -22,11 +22,16 @@ const char* name(SamplerKind kind);
 /// next2D. A plain value for one thread; no virtual call and no table per number.
 class Sampler {
   public:
-    Sampler(SamplerKind kind, std::uint64_t masterSeed) : seeds_(masterSeed), kind_(kind) {}
+    Sampler(SamplerKind kind, std::uint64_t masterSeed)
+        : seeds_(masterSeed), pixelSeed_(seeds_.seed(pixel_)), kind_(kind) {}
 
     /// Begins a sample at dimension 0.
     void start(Pixel pixel, std::uint32_t sample) {
-        stream_ = kind_ == SamplerKind::sobol ? seeds_.seed(pixel) : seeds_.seed(pixel, sample);
+        if (pixel != pixel_) {
+            pixel_ = pixel;
+            pixelSeed_ = seeds_.seed(pixel);
+        }
+        stream_ = kind_ == SamplerKind::sobol ? pixelSeed_ : SeedMap::seedOfSample(pixelSeed_, sample);
         sample_ = sample;
         dimension_ = 0;
     }
@@ -56,9 +61,11 @@ class Sampler {
 
   private:
     /// SplitMix64 with the dimension as its counter (Steele, Lea, Flood 2014).
-    std::uint64_t nextBits() { return mix64(stream_ + ++dimension_ * 0x9e3779b97f4a7c15ull); }
+    std::uint64_t nextBits() { return mix64(stream_ + ++dimension_ * kGolden64); }
 
     SeedMap seeds_;
+    Pixel pixel_;
+    std::uint64_t pixelSeed_;      ///< of pixel_
     std::uint64_t stream_ = 0;     ///< of this sample (independent) or of this pixel (sobol)
     std::uint64_t dimension_ = 0;
     std::uint32_t sample_ = 0;
