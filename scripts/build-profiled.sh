@@ -9,7 +9,7 @@ program=$build/bin/emca-render
 images=$build/profile-images
 
 compile() {  # compile generate|use
-  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DEMCA_PROFILE="$1" -DEMCA_BUILD_TESTS=OFF \
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-march=native -DEMCA_PROFILE="$1" -DEMCA_BUILD_TESTS=OFF \
     -DEMCA_BUILD_BENCH=OFF >"$build/configure.log" || { cat "$build/configure.log" >&2; exit 1; }
   cmake --build "$build" --target emca-render
 }
