@@ -74,15 +74,23 @@ class LightProbePanel : public ::testing::Test {
         context.data.addTrace(std::make_shared<const client::Trace>(std::move(trace)));
     }
 
-    /// A vertex of a path that goes on for two more.
+    /// A vertex of a path that goes on for two more, and that sees the light.
     client::VertexId vertex(std::int32_t depth = 1) const {
         const PathSet& paths = context.data.paths();
         for (Index path = 0; path < paths.pathCount(); ++path) {
             const auto next = paths.findVertex(path, depth + 2);
-            if (next && paths.position(*next)) return {{paths.pixel(path), paths.sample(path), paths.part(path)}, depth};
+            if (next && paths.position(*next) && seesLight(*paths.findVertex(path, depth)))
+                return {{paths.pixel(path), paths.sample(path), paths.part(path)}, depth};
         }
         ADD_FAILURE() << "No path is long enough.";
         return {};
+    }
+    bool seesLight(Index vertex) const {
+        const PathSet& paths = context.data.paths();
+        const IndexRange events = paths.nextEvents(vertex);
+        for (Index i = events.first; i < events.last; ++i)
+            if (paths.nextEvent(i).visible) return true;
+        return false;
     }
 
     void open() {
