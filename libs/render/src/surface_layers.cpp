@@ -6,8 +6,9 @@ namespace emca::render {
 
 void SurfaceTally::nextEvent(const EmitterSample& light) {
     if (!wantsNextEvents() || !light.shape) return;
-    const std::int32_t face = light.face >= 0 ? light.face : light.shape->faceAt(light.position);
-    PathTally::nextEvent({light.shape->index, face, light.position, light.barycentrics});
+    const bool known = light.face >= 0;
+    PathTally::nextEvent({light.shape->index, known ? light.face : light.shape->faceAt(light.position), light.position,
+                          known ? light.barycentrics : light.shape->barycentricsAt(light.position)});
 }
 
 }  // namespace emca::render

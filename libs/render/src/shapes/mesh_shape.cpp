@@ -74,6 +74,10 @@ std::int32_t MeshShape::faceAt(Vec3f position) const {
     return parallelogram_ ? parallelogram_->face(parallelogram_->parametersOf(position)) : -1;
 }
 
+Vec2f MeshShape::barycentricsAt(Vec3f position) const {
+    return parallelogram_ ? parallelogram_->barycentrics(parallelogram_->parametersOf(position)) : kNoBarycentrics;
+}
+
 Vec2f MeshShape::uv(std::int32_t face, Vec2f bary, Vec3f position) const {
     if (face < 0 && parallelogram_) {
         const Vec2f u = parallelogram_->parametersOf(position);

@@ -74,6 +74,8 @@ class Shape {
     /// The triangle of displayMesh() at a point of the surface, where points come without their face. -1: a mesh, whose
     /// points have one.
     virtual std::int32_t faceAt(Vec3f /*position*/) const { return -1; }
+    /// Barycentric coordinates in that triangle, if they are quick to find: else kNoBarycentrics.
+    virtual Vec2f barycentricsAt(Vec3f /*position*/) const { return kNoBarycentrics; }
 
     std::string name;                          ///< id in the scene file, else the plugin's type
     std::shared_ptr<const Bsdf> bsdf;          ///< never null in a scene
