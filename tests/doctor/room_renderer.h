@@ -245,6 +245,8 @@ class RoomRenderer : public Renderer {
         if (fault_ == Fault::throwsInImage) throw std::runtime_error("out of paint");
         if (fault_ == Fault::renderFails) return Error{ErrorCode::rendererFailed, "The film has no frame."};
         ++rendering_;
+        // Long enough that others surely come meanwhile.
+        if (fault_ == Fault::sharedState) std::this_thread::sleep_for(std::chrono::milliseconds(60));
         RenderedImage image;
         image.color = Image(kWidth, kHeight);
         Layers layers{};
