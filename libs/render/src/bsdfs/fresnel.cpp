@@ -23,7 +23,7 @@ DielectricFresnel fresnelDielectric(float cosIncident, float eta) {
 }
 
 Color fresnelConductor(float cosIncident, Color eta, Color k) {
-    // At cosine 0 both fractions above are 1 in the limit, but 0/0 for an index of 1.
+    // At cosine 0 both fractions below are 1 in the limit, but 0/0 for an index of 1.
     if (cosIncident <= 0.f) return Color(1.f);
     const float cos2 = square(cosIncident);
     const float sin2 = 1.f - cos2;

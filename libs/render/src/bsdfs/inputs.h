@@ -14,11 +14,12 @@ namespace emca::render {
 class ColorInput {
   public:
     explicit ColorInput(Color constant) : constant_(constant) {}
-    explicit ColorInput(std::shared_ptr<const Texture> texture) : constant_(texture->mean()) {
-        if (!texture->isConstant()) texture_ = std::move(texture);
+    explicit ColorInput(std::shared_ptr<const Texture> texture) {
+        if (texture->isConstant()) constant_ = texture->mean();
+        else texture_ = std::move(texture);
     }
     Color operator()(const SurfaceInteraction& at) const { return texture_ ? texture_->eval(at.uv()) : constant_; }
-    Color mean() const { return constant_; }
+    Color mean() const { return texture_ ? texture_->mean() : constant_; }
     bool isConstant() const { return !texture_; }
 
   private:
@@ -30,16 +31,17 @@ class ColorInput {
 class NumberInput {
   public:
     explicit NumberInput(float constant) : constant_(constant) {}
-    explicit NumberInput(std::shared_ptr<const Texture> texture) : constant_(luminance(texture->mean())) {
-        if (!texture->isConstant()) texture_ = std::move(texture);
+    explicit NumberInput(std::shared_ptr<const Texture> texture) {
+        if (texture->isConstant()) constant_ = luminance(texture->mean());
+        else texture_ = std::move(texture);
     }
     float operator()(const SurfaceInteraction& at) const { return texture_ ? texture_->evalScalar(at.uv()) : constant_; }
-    float mean() const { return constant_; }
+    float mean() const { return texture_ ? luminance(texture_->mean()) : constant_; }
     bool isConstant() const { return !texture_; }
 
   private:
     std::shared_ptr<const Texture> texture_;
-    float constant_;
+    float constant_ = 0;
 };
 
 /// The roughness parameters that all rough materials share: distribution, and alpha or alpha_u and alpha_v.
