@@ -43,6 +43,6 @@ PathLayers::PathLayers(SurfaceRecorder& surface) : recorder(&surface) {
 }
 
 template class BasicPathTally<Color>;
-template void BasicPathTally<Color>::end(int, std::identity);
+template void BasicPathTally<Color>::unwind(int, std::identity);
 
 }  // namespace emca

@@ -20,7 +20,6 @@ struct SurfaceStore::Lane {
 namespace {
 
 constexpr std::uint32_t kLanes = 16;  // more than the machine's outstanding misses gains nothing
-constexpr std::uint32_t kPositions = 64;  // but each step on one of these is short: as long as a miss all together
 
 inline void prefetchForWriting(const void* address) { __builtin_prefetch(address, 1, 3); }
 
@@ -74,13 +73,12 @@ inline void keepPrefetches() {
 }
 
 void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
-    if (block.hasPositions) resolvePositions(block);
     const std::uint32_t* record = block.data();
-    const std::uint32_t count = block.words / recordWords_;
+    const std::uint32_t words = recordWords(), count = block.words / words;
     const auto ahead = [&](std::uint32_t group, std::uint32_t done) {  // how many records that group has
         return std::min<std::uint32_t>(kLanes, count - std::min(count, done + group * kLanes));
     };
-    const std::size_t groupWords = std::size_t(kLanes) * recordWords_;
+    const std::size_t groupWords = std::size_t(kLanes) * words;
     // Two groups at once: while the nodes of one are on their way, the other looks for its own. A triangle that divides
     // in between keeps what the later group found it for, as it does with points of other threads.
     Lane lanes[2][kLanes];
@@ -90,8 +88,7 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
     for (std::uint32_t done = 0, turn = 0; done < count; done += kLanes, record += groupWords, turn ^= 1) {
         prefetchFaces(record + 2 * groupWords, ahead(2, done));
         const std::uint32_t used = ahead(0, done);
-        enter(shard, record, used, lanes[turn]);
-        descendAll(lanes[turn], used);
+        findNodes(shard, record, used, lanes[turn]);
         for (std::uint32_t i = 0; i < pending; ++i) addRecord(shard, lanes[turn ^ 1][i]);
         pending = used;
         if (done + kLanes >= count)
@@ -99,56 +96,19 @@ void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
     }
 }
 
-/// From positions to paths, in three steps: what is prefetched in one is there in the next. Only points are left.
-void SurfaceStore::resolvePositions(SurfaceBlock& block) const {
-    struct Pending {
-        std::uint32_t* record;
-        const SurfaceMeshView* mesh;
-        const Triangle* triangle;
-    } pending[kPositions];
-    keepPrefetches();
-    std::uint32_t *record = block.data(), *end = record + block.words;
-    while (record < end) {
-        std::uint32_t count = 0;
-        for (; record < end && count < kPositions; record += recordWords_) {
-            if (record[0] != kNoFace) continue;
-            const std::uint32_t *place = record + recordWords_, mesh = place[1];
-            pending[count] = {record, &meshes_[mesh], &meshes_[mesh].triangles[place[0] - faceStarts_[mesh]]};
-            __builtin_prefetch(pending[count++].triangle);
-        }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const auto first = reinterpret_cast<std::uintptr_t>(pending[i].mesh->positions.data());
-            // Only a hint: an index beyond the vertices does no harm here.
-            for (const std::uint32_t vertex : *pending[i].triangle)
-                __builtin_prefetch(reinterpret_cast<const void*>(first + vertex * sizeof(Vec3f)));
-        }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            std::uint32_t* at = pending[i].record;
-            at[recordWords_ + 1] = pathOf(*pending[i].mesh, *pending[i].triangle,
-                                          {std::bit_cast<float>(at[1]), std::bit_cast<float>(at[2]),
-                                           std::bit_cast<float>(at[3])});
-        }
-    }
-    std::uint32_t* kept = block.data();
-    for (record = block.data(); record < end; record += recordWords_) {
-        if (record[0] == kNoFace) continue;
-        for (std::uint32_t word = 0; word < recordWords_; ++word) *kept++ = record[word];
-    }
-    block.words = static_cast<std::uint32_t>(kept - block.data());
-}
-
 /// Before records are applied: what their faces are found by.
 void SurfaceStore::prefetchFaces(const std::uint32_t* record, std::uint32_t count) const {
     keepPrefetches();
-    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_)
+    for (std::uint32_t i = 0, words = recordWords(); i < count; ++i, record += words)
         if (const SurfaceRef* slot = slotOf(record[0])) __builtin_prefetch(slot);
 }
 
-/// From records to the references of their faces.
-void SurfaceStore::enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes) {
-    std::uint32_t points = 0;
-    for (std::uint32_t i = 0; i < count; ++i, record += recordWords_) {
-        const std::uint32_t face = record[0], counted = ~record[kPlaceWords] & kNotCounted;
+/// From records to the nodes of the smallest triangles that contain the points, level by level: what is prefetched in one
+/// round is there in the next.
+void SurfaceStore::findNodes(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes) {
+    std::uint32_t points = 0, active[kLanes], left = 0;
+    for (std::uint32_t i = 0, words = recordWords(); i < count; ++i, record += words) {
+        const std::uint32_t face = record[0], counted = ~record[kPlaceWords] & kSurfaceNotCounted;
         SurfaceRef* slot = slotOf(face);
         if (slot == nullptr || !*slot) [[unlikely]] {
             slot = newRoot(shard, face);
@@ -157,47 +117,47 @@ void SurfaceStore::enter(SurfaceShard& shard, const std::uint32_t* record, std::
                 bump(shard.coarse, counted);
             }
         }
-        lanes[i] = {slot, nullptr, record, record[1]};
         points += counted;
+        lanes[i] = {slot, nullptr, record, record[1]};
+        active[left] = i;
+        left += descend(lanes[i]);
     }
     bump(shard.points, points);
-}
-
-/// From the references of faces to the nodes of the smallest triangles that contain the points, level by level: what is
-/// prefetched in one round is there in the next.
-void SurfaceStore::descendAll(Lane* lanes, std::uint32_t count) const {
-    std::uint32_t active[kLanes], left = count;
-    for (std::uint32_t i = 0; i < count; ++i) active[i] = i;
     while (left > 0) {
         std::uint32_t still = 0;
         for (std::uint32_t k = 0; k < left; ++k) {
-            Lane& lane = lanes[active[k]];
-            const SurfaceRef ref = *lane.slot;
-            if (ref.ends()) [[likely]] {
-                lane.node = ref.end(firstChild(lane.path), nodeBytes_);
-                for (std::size_t line = 0; line < nodeBytes_; line += 64)
-                    prefetchForWriting(reinterpret_cast<std::byte*>(lane.node) + line);
-                continue;
-            }
-            const bool jumps = ref.kind() == SurfaceRef::table;
-            const std::uint32_t levels = jumps ? ref.levels() : 1;
-            lane.slot = (jumps ? ref.entries() : ref.children()) + (lane.path >> (32 - 2 * levels));
-            lane.path <<= 2 * levels;
-            __builtin_prefetch(lane.slot);
-            active[still++] = active[k];
+            active[still] = active[k];
+            still += descend(lanes[active[k]]);
         }
         left = still;
     }
 }
 
+/// One step down, to the next reference or to the node. False at the end.
+inline bool SurfaceStore::descend(Lane& lane) const {
+    const SurfaceRef ref = *lane.slot;
+    if (ref.ends()) [[likely]] {
+        lane.node = ref.end(firstChild(lane.path), nodeBytes_);
+        for (std::size_t line = 0; line < nodeBytes_; line += 64)
+            prefetchForWriting(reinterpret_cast<std::byte*>(lane.node) + line);
+        return false;
+    }
+    const bool jumps = ref.kind() == SurfaceRef::table;
+    const std::uint32_t levels = jumps ? ref.levels() : 1;
+    lane.slot = (jumps ? ref.entries() : ref.children()) + (lane.path >> (32 - 2 * levels));
+    lane.path <<= 2 * levels;
+    __builtin_prefetch(lane.slot);
+    return true;
+}
+
 /// Adds the values of one mask, whose bit 0 belongs to `layout`.
-inline void SurfaceStore::addValues(SurfaceNode* node, const std::uint32_t* record, std::uint32_t mask,
+inline void SurfaceStore::addValues(SurfaceNode* node, const std::uint32_t* values, std::uint32_t mask,
                                     const SurfaceLayerLayout* layout) {
     for (; mask != 0; mask &= mask - 1) {
         const SurfaceLayerLayout& layer = layout[std::countr_zero(mask)];
         auto* count = inNode<std::uint32_t>(node, layer.count);
         if (++*count == 0) [[unlikely]] spill(count, std::uint64_t(1) << 32);
-        const std::uint32_t* value = record + layer.valueWord;
+        const std::uint32_t* value = values + layer.valueWord;
         auto* sums = inNode<double>(node, layer.sums);
         sums[0] += double(std::bit_cast<float>(value[0]));
         if (layer.channels == 3) {
@@ -209,19 +169,19 @@ inline void SurfaceStore::addValues(SurfaceNode* node, const std::uint32_t* reco
 
 void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
     SurfaceNode* node = lane.node;
-    const std::uint32_t* record = lane.record;
-    const std::uint32_t mask = record[kPlaceWords];
-    const std::uint32_t points = node->points += ~mask & kNotCounted;
+    const std::uint32_t* values = lane.record + kPlaceWords;
+    const std::uint32_t mask = values[0];
+    const std::uint32_t points = node->points += ~mask & kSurfaceNotCounted;
     const SurfaceLayerLayout* layouts = layouts_.data();
-    addValues(node, record, mask >> kFirstMaskFlags, layouts);
+    addValues(node, values, mask >> kFirstMaskFlags, layouts);
     for (std::size_t i = 1; i < maskWords_.size(); ++i)
-        addValues(node, record, record[maskWords_[i]], layouts + 32 * i - kFirstMaskFlags);
+        addValues(node, values, values[maskWords_[i]], layouts + 32 * i - kFirstMaskFlags);
     if (points & SurfaceNode::kFull) [[unlikely]] {
         node->points -= SurfaceNode::kFull;
         spill(&node->points, SurfaceNode::kFull);
     }
     if (points >= pointsToDivide_ && points < SurfaceNode::kFinal) [[unlikely]]
-        divide(shard, node, record);
+        divide(shard, node, lane.record);
 }
 
 SurfaceRef* SurfaceStore::slotOf(std::uint32_t face) const {

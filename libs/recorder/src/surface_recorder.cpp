@@ -14,86 +14,6 @@
 namespace emca {
 namespace detail {
 
-SurfaceCursorImpl::SurfaceCursorImpl(SurfaceStore& owner)
-    : SurfaceCursorState(owner.cursorState()), store(owner), openRecords(owner.shardCount()),
-      openBlocks(owner.shardCount(), nullptr) {
-    open = openRecords.data();
-    impl = this;
-}
-
-SurfaceCursorImpl::~SurfaceCursorImpl() {
-    for (SurfaceBlock* block : blocks) ::operator delete(block);
-}
-
-void SurfaceCursorState::replaceBlock(std::uint32_t shard) { impl->replaceBlock(shard); }
-
-void SurfaceCursorState::countInvalid() { bump(impl->invalid, 1); }
-
-void SurfaceCursorImpl::closeBlock(std::uint32_t shard) {
-    SurfaceBlock* block = std::exchange(openBlocks[shard], nullptr);
-    if (block == nullptr) return;
-    Open& from = openRecords[shard];
-    block->words = static_cast<std::uint32_t>(from.next - block->data());
-    store.submit(block, shard);
-    from = {nullptr, nullptr, from.serial + 1};
-}
-
-void SurfaceCursorImpl::replaceBlock(std::uint32_t shard) {
-    closeBlock(shard);
-    SurfaceBlock* block = openBlocks[shard] = newBlock();
-    block->hasPositions = false;
-    openRecords[shard].next = block->data();
-    openRecords[shard].end = block->data() + (store.blockBytes() - sizeof(SurfaceBlock)) / sizeof(std::uint32_t);
-}
-
-/// A record for a place, with no values and no flags yet.
-std::uint32_t* SurfaceCursorImpl::appendPlace(const SurfacePlace& place, std::uint32_t shard) {
-    std::uint32_t* record = append(shard, place.isPosition ? 2 : 1);
-    if (place.isPosition) {
-        openBlocks[shard]->hasPositions = true;
-        record[0] = kNoFace;
-        for (int i = 0; i < 3; ++i) record[1 + i] = std::bit_cast<std::uint32_t>(place.position[i]);
-        record += recordWords;
-    }
-    record[0] = place.face;
-    record[1] = place.path;
-    record[kPlaceWords] = 0;
-    return record;
-}
-
-SurfaceBlock* SurfaceCursorImpl::newBlock() {
-    for (;;) {
-        if (freeBlocks == nullptr) freeBlocks = returned.exchange(nullptr, std::memory_order_acquire);
-        if (freeBlocks != nullptr) {
-            SurfaceBlock* block = freeBlocks;
-            freeBlocks = block->next;
-            return block;
-        }
-        if (blocks.size() < store.blocksPerCursor()) {
-            void* memory = ::operator new(store.blockBytes());
-            store.addUsed(store.blockBytes());
-            auto* block = new (memory) SurfaceBlock{nullptr, this, 0, false};
-            blocks.push_back(block);
-            return block;
-        }
-        // As many blocks as are open at once wait at owners, which other threads are: a thread that outruns them works
-        // for them, and only if there is nothing to take over gives them time.
-        if (!store.help()) std::this_thread::yield();
-    }
-}
-
-void SurfaceCursorState::addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value) {
-    SurfaceCursorImpl& cursor = *at.cursor_->impl;
-    if (!finiteBits(value.r) || !finiteBits(value.g) || !finiteBits(value.b)) return cursor.countInvalid();
-    std::uint32_t* record = cursor.appendPlace(at.place_, at.shard_);
-    record[kPlaceWords] = kNotCounted;
-    record[layer.maskWord_] |= 1u << layer.bit_;
-    record[layer.value_] = std::bit_cast<std::uint32_t>(value.r);
-    if (layer.channels_ == 1) return;
-    record[layer.value_ + 1] = std::bit_cast<std::uint32_t>(value.g);
-    record[layer.value_ + 2] = std::bit_cast<std::uint32_t>(value.b);
-}
-
 SurfaceCursorImpl* SurfaceStore::acquire() {
     const std::lock_guard lock(cursorsMutex_);
     if (!isSetUp()) setUp();
@@ -112,8 +32,7 @@ void SurfaceStore::release(SurfaceCursorImpl* cursor) {
 
 void SurfaceStore::flush() {
     const std::lock_guard lock(cursorsMutex_);
-    for (const auto& cursor : cursors_)
-        for (std::uint32_t shard = 0; shard < shardCount_; ++shard) cursor->closeBlock(shard);
+    for (const auto& cursor : cursors_) cursor->flush();
 }
 
 namespace {
@@ -228,14 +147,11 @@ SurfaceCursor& SurfaceRecorder::cursor() {
 SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec3f p) {
     SurfacePoint at;
     if (state_ == nullptr) return at;
-    const std::uint32_t global =
-        state_->check(mesh, face, detail::finiteBits(p.x) && detail::finiteBits(p.y) && detail::finiteBits(p.z));
-    if (global == detail::kNoFace) return at;
+    state_->hasPositions = true;
     at.cursor_ = state_;
-    at.shard_ = state_->shardOf(global);
-    at.place_ = {global, mesh, {p.x, p.y, p.z}, true};
-    at.record_ = state_->impl->appendPlace(at.place_, at.shard_);
-    at.serial_ = state_->open[at.shard_].serial;
+    at.values_ = state_->append(mesh, face, p.x, p.y, p.z, detail::kSurfacePosition);
+    at.serial_ = state_->serial;
+    at.place_ = {face, mesh, {p.x, p.y, p.z}, detail::kSurfacePosition};
     return at;
 }
 

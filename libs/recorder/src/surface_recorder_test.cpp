@@ -93,10 +93,9 @@ TEST(SurfaceRecorder, ACounterNearItsLimitGoesOnExactly) {
     *store.counterForTest(root, store.layouts()[0]) = static_cast<std::uint32_t>(before);
     *const_cast<double*>(store.sums(root, store.layouts()[0])) = double(before);
     for (int i = 0; i < 5000; ++i) {
-        std::uint32_t* record = cursor->append(store.shardOf(0));
-        for (std::uint32_t word = 0; word < detail::kPlaceWords; ++word) record[word] = 0;  // face 0, at its first vertex
-        record[store.layouts()[0].maskWord] = 1u << store.layouts()[0].bit;
-        record[store.layouts()[0].valueWord] = std::bit_cast<std::uint32_t>(1.f);
+        std::uint32_t* values = cursor->append(0, 0, 0, 0, 0, 0);  // at the first vertex
+        values[store.layouts()[0].maskWord] = 1u << store.layouts()[0].bit;
+        values[store.layouts()[0].valueWord] = std::bit_cast<std::uint32_t>(1.f);
     }
     store.flush();
     const SurfaceField field = detail::makeField(store);

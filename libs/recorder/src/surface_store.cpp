@@ -54,10 +54,10 @@ const SurfaceLayerLayout& SurfaceStore::addLayer(LayerDescription description) {
     SurfaceLayerLayout layout;
     layout.channels = static_cast<std::uint8_t>(channelCount(description.kind));
     layout.bit = static_cast<std::uint8_t>((layouts_.size() + kFirstMaskFlags) % 32);
-    if (layouts_.empty() || layout.bit == 0) maskWords_.push_back(static_cast<std::uint16_t>(recordWords_++));
+    if (layouts_.empty() || layout.bit == 0) maskWords_.push_back(static_cast<std::uint16_t>(valueWords_++));
     layout.maskWord = maskWords_.back();
-    layout.valueWord = static_cast<std::uint16_t>(recordWords_);
-    recordWords_ += layout.channels;
+    layout.valueWord = static_cast<std::uint16_t>(valueWords_);
+    valueWords_ += layout.channels;
     descriptions_.push_back(std::move(description));
     return layouts_.emplace_back(layout);
 }
@@ -76,13 +76,6 @@ void SurfaceStore::setUp() {
     layOutNodes();
     divideBudget();
     shards_ = std::make_unique<SurfaceShard[]>(shardCount_);
-    common_.faceStarts = faceStarts_.data();
-    common_.meshCount = static_cast<std::uint32_t>(meshes_.size());
-    common_.recordWords = recordWords_;
-    common_.shardShift = pageBits_ + runBits_;
-    common_.shardMask = shardCount_ - 1;
-    common_.maskWords = maskWords_.data();
-    common_.maskWordCount = static_cast<std::uint32_t>(maskWords_.size());
 }
 
 void SurfaceStore::layOutNodes() {
@@ -105,7 +98,8 @@ void SurfaceStore::divideBudget() {
     const std::size_t budget = options_.budgetBytes;
     // Blocks: what all threads may hold back, and as much on the way.
     const std::size_t threads = 2 * std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t leastBlock = roundUp(sizeof(SurfaceBlock) + 4 * sizeof(std::uint32_t) * recordWords_, 64);
+    const std::size_t leastBlock =
+        roundUp(sizeof(SurfaceBlock) + sizeof(std::uint32_t) * (4 * std::size_t(kPlaceWords + valueWords_) + kCopyWords), 64);
     // Enough that threads seldom meet, few enough that the open blocks stay in the cache.
     shardCount_ = std::min(kMaximumShards, std::bit_ceil(static_cast<std::uint32_t>(4 * threads)));
     blockBytes_ = std::max(kMaximumBlockBytes, leastBlock);
@@ -118,6 +112,8 @@ void SurfaceStore::divideBudget() {
         else
             blockBytes_ = leastBlock;
     }
+    logRecords_ = kMaximumLogRecords;
+    while (threads * logBytes() > budget / 32 && logRecords_ > 4) logRecords_ /= 2;
     // The table of faces: pages of neighbouring faces, many enough to spread over the shards.
     const std::uint64_t perShard = faceCount_ / (16 * shardCount_);
     pageBits_ = std::min(6u, perShard > 0 ? static_cast<std::uint32_t>(std::bit_width(perShard)) - 1 : 0u);
@@ -128,9 +124,10 @@ void SurfaceStore::divideBudget() {
     const auto runs = [&] { return (pageCount + (std::uint64_t(1) << runBits_) - 1) >> runBits_; };
     while (runs() > 1 && runs() * (nodeBytes_ + sizeof(SurfaceRef)) > budget / 16) ++runBits_;
     runCount_ = runs();
+    shardShift_ = pageBits_ + runBits_;
     bins_ = std::make_unique<SurfaceRef[]>(std::max<std::uint64_t>(1, runCount_));
     addUsed(runCount_ * sizeof(SurfaceRef));
-    std::size_t taken = forThreads() + runCount_ * (nodeBytes_ + sizeof(SurfaceRef));
+    std::size_t taken = forThreads() + threads * logBytes() + runCount_ * (nodeBytes_ + sizeof(SurfaceRef));
     if (storesFaces_) {
         pages_ = std::make_unique<Page*[]>(std::max<std::uint64_t>(1, pageCount));
         addUsed(pageCount * sizeof(Page*));
@@ -201,9 +198,9 @@ double SurfaceStore::area(std::uint32_t mesh, std::uint32_t face) const {
     return std::isfinite(area) ? area : 0;
 }
 
-std::uint32_t SurfaceStore::pathOf(const SurfaceMeshView& view, const Triangle& t, Vec3f position) {
+Vec2f SurfaceStore::barycentrics(const SurfaceMeshView& view, const Triangle& t, Vec3f position) {
     const std::size_t count = view.positions.size();
-    if (t[0] >= count || t[1] >= count || t[2] >= count) return 0;
+    if (t[0] >= count || t[1] >= count || t[2] >= count) return {};
     // Doubles: in thin triangles single precision would move points by many faces of the subdivision.
     const auto wide = [](Vec3f q) { return Vec3d{double(q.x), double(q.y), double(q.z)}; };
     const Vec3d origin = wide(view.positions[t[0]]);
@@ -211,10 +208,8 @@ std::uint32_t SurfaceStore::pathOf(const SurfaceMeshView& view, const Triangle& 
     const Vec3d d = wide(position) - origin;
     const double a = dot(e1, e1), b = dot(e1, e2), c = dot(e2, e2), p = dot(d, e1), q = dot(d, e2);
     const double scale = 1 / (a * c - b * b);
-    const float fu = float((c * p - b * q) * scale), fv = float((a * q - b * p) * scale);
-    std::uint32_t u = 0, v = 0;
-    if (finiteBits(fu) && finiteBits(fv)) toFixed(fu, fv, u, v);
-    return surfacePath(u, v);
+    const Vec2f weights{float((c * p - b * q) * scale), float((a * q - b * p) * scale)};
+    return finiteBits(weights.x) && finiteBits(weights.y) ? weights : Vec2f{};
 }
 
 SurfaceRef SurfaceStore::root(std::uint32_t face) const {

@@ -84,26 +84,28 @@ class SurfaceRef {
 /// Where a layer is in nodes and in records.
 struct SurfaceLayerLayout {
     std::uint32_t count = 0, sums = 0;  ///< byte offsets in a node; `channels` sums
-    std::uint16_t maskWord = 0, valueWord = 0;
+    std::uint16_t maskWord = 0, valueWord = 0;  ///< of a record's values
     std::uint8_t bit = 0, channels = 1;
 };
 
-/// What a thread has to say about one point, in words of 32 bits: the face of all faces, its surfacePath(), then for each
-/// 32 layers (30 in the first) a mask that tells which values are there, and room for all values.
+/// What a thread has to say about one point, in words of 32 bits: the face of all faces, its surfacePath(), then its
+/// values: for each 32 layers (30 in the first) a mask that tells which are there, and room for all.
 ///
-/// A position becomes a path only when its block is applied, where the loads of many triangles overlap: it stands in a
-/// record of its own before the point's, whose face does not exist; the path of the point's is the mesh until then.
+/// In the log it begins with the SurfacePlace instead. That becomes a path when the log is distributed, since the loads
+/// that it takes overlap for many points there, and the renderer's own code stays short.
 constexpr std::uint32_t kPlaceWords = 2;
-constexpr std::uint32_t kNoFace = SurfaceCursorState::kNoFace;
-/// Bits of the first mask.
-constexpr std::uint32_t kNotCounted = 1, kFirstMaskFlags = 1;
+constexpr std::uint32_t kNoFace = ~0u;         ///< faces beyond 2^32 - 1 of all meshes do not take part
+constexpr std::uint32_t kFirstMaskFlags = 2;   ///< bits of the first mask
+/// Records are copied so many words at a time: behind the last of a log or a block there is room for that.
+constexpr std::uint32_t kCopyWords = 4;
+
+constexpr std::uint32_t kMaximumLogRecords = 128;  ///< of a half: more than most paths have, few enough to stay in the cache
 
 /// Records for one shard, on their way from the thread that made them to whoever applies them.
 struct SurfaceBlock {
     SurfaceBlock* next;       ///< in the shard's list of waiting blocks, or in the home's list of free ones
     SurfaceCursorImpl* home;  ///< where it returns when its records are applied
     std::uint32_t words;      ///< used
-    bool hasPositions;
     std::uint32_t* data() { return reinterpret_cast<std::uint32_t*>(this + 1); }
 };
 
@@ -144,15 +146,16 @@ class SurfaceStore {
     /// See SurfaceRecorder::passDone.
     void divideAll(double part);
 
-    std::uint32_t shardOf(std::uint32_t face) const { return common_.shardOf(face); }
-    /// What cursors copy: how records are laid out and where they go.
-    const SurfaceCursorState& cursorState() const { return common_; }
+    std::uint32_t shardOf(std::uint32_t face) const {
+        const auto run = static_cast<std::uint32_t>(std::uint64_t(face) >> shardShift_);
+        return (run ^ run >> 7 ^ run >> 13) & (shardCount_ - 1);
+    }
     /// Mesh that a global face belongs to.
     std::uint32_t meshOf(std::uint32_t face) const;
     /// World-space area of a face of the scene; 0 if it has none or a vertex is missing or not finite.
     double area(std::uint32_t mesh, std::uint32_t face) const;
-    /// From a position to a path; that of the first vertex on a face that has no area.
-    static std::uint32_t pathOf(const SurfaceMeshView& mesh, const Triangle& triangle, Vec3f position);
+    /// Weights of the second and third vertex; those of the first vertex on a face that has no area.
+    static Vec2f barycentrics(const SurfaceMeshView& mesh, const Triangle& triangle, Vec3f position);
 
     // For post-processing, while no thread records.
     SurfaceRef root(std::uint32_t face) const;
@@ -183,10 +186,13 @@ class SurfaceStore {
     const std::vector<LayerDescription>& descriptions() const { return descriptions_; }
     const std::vector<SurfaceLayerLayout>& layouts() const { return layouts_; }
     std::size_t nodeBytes() const { return nodeBytes_; }
-    std::uint32_t recordWords() const { return recordWords_; }
-    const std::vector<std::uint16_t>& maskWords() const { return maskWords_; }  ///< of a record
+    std::uint32_t valueWords() const { return valueWords_; }  ///< of a record
+    std::uint32_t recordWords() const { return kPlaceWords + valueWords_; }  ///< in a block
+    const std::vector<std::uint16_t>& maskWords() const { return maskWords_; }
     std::uint32_t shardCount() const { return shardCount_; }
     std::size_t blockBytes() const { return blockBytes_; }
+    std::uint32_t logRecords() const { return logRecords_; }  ///< of one half
+    std::size_t logBytes() const { return sizeof(std::uint32_t) * (2 * std::size_t(logRecords_) * (kSurfacePlaceWords + valueWords_) + kCopyWords); }
     std::uint32_t blocksPerCursor() const { return 2 * shardCount_; }
     void addUsed(std::size_t bytes) { bytesUsed_.fetch_add(bytes, std::memory_order_relaxed); }
 
@@ -210,12 +216,11 @@ class SurfaceStore {
     void divideBudget();
     void applyWaiting(SurfaceShard& shard);
     void apply(SurfaceShard& shard, SurfaceBlock& block);
-    void resolvePositions(SurfaceBlock& block) const;
     void prefetchFaces(const std::uint32_t* record, std::uint32_t count) const;
-    void enter(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
-    void descendAll(Lane* lanes, std::uint32_t count) const;
+    void findNodes(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
+    bool descend(Lane& lane) const;
     void addRecord(SurfaceShard& shard, Lane& lane);
-    void addValues(SurfaceNode* node, const std::uint32_t* record, std::uint32_t mask, const SurfaceLayerLayout* layout);
+    void addValues(SurfaceNode* node, const std::uint32_t* values, std::uint32_t mask, const SurfaceLayerLayout* layout);
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
     void divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited, double growth);
@@ -241,10 +246,9 @@ class SurfaceStore {
     std::vector<SurfaceLayerLayout> layouts_;
     std::vector<std::uint16_t> maskWords_;
     std::size_t nodeBytes_ = 0, nodeAlignment_ = 0;
-    std::uint32_t recordWords_ = kPlaceWords;
+    std::uint32_t valueWords_ = 0;
 
-    SurfaceCursorState common_;
-    std::uint32_t pageBits_ = 0, runBits_ = 0, shardCount_ = 0;
+    std::uint32_t pageBits_ = 0, runBits_ = 0, shardShift_ = 0, shardCount_ = 0, logRecords_ = 0;
     std::size_t blockBytes_ = 0, chunkBytes_ = 0, chunksPerSlab_ = 1, pageBytes_ = 0;
     std::uint64_t chunkCount_ = 0;
     bool storesFaces_ = true;  ///< false if the budget does not even hold a table of faces: bins only
@@ -263,23 +267,43 @@ class SurfaceStore {
     std::vector<SurfaceCursorImpl*> idle_;
 };
 
-/// One thread's open blocks, one per shard.
+/// One thread's log, and its open blocks, one per shard.
 struct SurfaceCursorImpl : SurfaceCursorState {
     explicit SurfaceCursorImpl(SurfaceStore& owner);
     ~SurfaceCursorImpl();
 
-    void replaceBlock(std::uint32_t shard);
+    void turn();
+    /// Hands over all that is held back. Points located before take values as late ones do.
+    void flush();
+    bool isPlace(const SurfacePlace& at) const;
+
+    std::atomic<SurfaceBlock*> returned{nullptr};  ///< blocks of ours that others have applied
+    std::atomic<std::uint64_t> invalid{0};
+
+  private:
+    /// Where the next record of a shard goes.
+    struct Open {
+        std::uint32_t* next = nullptr;
+        std::uint32_t* end = nullptr;
+        SurfaceBlock* block = nullptr;
+    };
+    std::uint32_t globalFace(std::uint32_t mesh, std::uint32_t face) const;
+    std::uint32_t* half(std::uint32_t of) const { return log_.get() + std::size_t(of % 2) * halfWords_; }
+    void distribute(std::uint32_t* record, const std::uint32_t* last);
+    void findBarycentrics(std::uint32_t* record, const std::uint32_t* last) const;
     void closeBlock(std::uint32_t shard);  ///< and hand it over
-    std::uint32_t* appendPlace(const SurfacePlace& place, std::uint32_t shard);
+    void replaceBlock(std::uint32_t shard);
     SurfaceBlock* newBlock();
 
-    SurfaceStore& store;
-    std::vector<Open> openRecords;
-    std::vector<SurfaceBlock*> openBlocks;         ///< per shard, or null
-    std::atomic<SurfaceBlock*> returned{nullptr};  ///< blocks of ours that others have applied
-    SurfaceBlock* freeBlocks = nullptr;
-    std::vector<SurfaceBlock*> blocks;             ///< all of ours
-    std::atomic<std::uint64_t> invalid{0};
+    SurfaceStore& store_;
+    const std::uint64_t* faceStarts_;  ///< per mesh, and the end
+    std::uint32_t meshCount_;
+    std::unique_ptr<std::uint32_t[]> log_;
+    std::size_t halfWords_ = 0;
+    bool otherHalf_ = false;        ///< is full
+    std::vector<Open> open_;        ///< per shard
+    SurfaceBlock* freeBlocks_ = nullptr;
+    std::vector<SurfaceBlock*> blocks_;  ///< all of ours
 };
 
 /// Post-processing; see SurfaceRecorder::finish.

@@ -61,10 +61,14 @@ class BasicPathTally {
 
     /// A path met a surface; until the next call, everything is about this vertex.
     void intersection(const SurfaceLocation& at) {
-        at_ = at;
-        located_ = false;
-        if (layers_.intersections) layers_.intersections.add(here());
-        if (layers_.perPath) vertices_.push_back({here()});
+        SurfacePoint& point = layers_.perPath ? vertices_.emplace_back().point : here_;
+        located_ = layers_.perPath || layers_.intersections;
+        if (!located_) {
+            at_ = at;
+            return;
+        }
+        locate(at, point);
+        layers_.intersections.add(point);
     }
     /// A vertex without surface: the path left the scene, or scattered in a medium.
     void background();
@@ -96,11 +100,16 @@ class BasicPathTally {
     /// \param depth    its number of vertices
     /// \param toColor  of radiance; called where a layer shows it
     template <typename ToColor = std::identity>
-    void end(int depth, ToColor toColor = {});
+    void end(int depth, ToColor toColor = {}) {
+        if (!vertices_.empty()) unwind(depth, toColor);
+        here_ = {};
+        located_ = true;
+        saysThroughput_ = false;
+    }
     /// The place of this vertex, for layers of the renderer's own.
     const SurfacePoint& here() {
         if (!located_) locateHere();
-        return here_;
+        return vertices_.empty() ? here_ : vertices_.back().point;
     }
 
   private:
@@ -109,26 +118,33 @@ class BasicPathTally {
         SurfacePoint point;
         Radiance throughput{0.f}, hit{0.f}, direct{0.f}, factor{0.f};
     };
-    SurfacePoint locate(const SurfaceLocation& at);
+    void locate(const SurfaceLocation& at, SurfacePoint& point) {
+        if (at.mesh < 0 || at.face < 0) {
+            point = {};
+            return;
+        }
+        const auto mesh = static_cast<std::uint32_t>(at.mesh), face = static_cast<std::uint32_t>(at.face);
+        if (at.barycentrics.x == at.barycentrics.x) {
+            cursor_.locate(mesh, face, at.barycentrics, point);
+        } else {
+            point = cursor_.locate(mesh, face, at.position);
+        }
+    }
+    template <typename ToColor>
+    void unwind(int depth, ToColor toColor);
     void locateHere() {
-        here_ = locate(at_);
+        locate(at_, here_);
         located_ = true;
     }
 
     const PathLayers& layers_;
     SurfaceCursor& cursor_;
     SurfaceLocation at_;
-    SurfacePoint here_;     ///< of at_, if located_: a place is a point of the subdivision, so only where there is something to add
+    SurfacePoint here_;     ///< if located_: a place is a point of the subdivision, so only where there is something to add.
+                            ///< Where layers ask for the end, the last vertex has it instead
     bool located_ = true, saysThroughput_ = false;
     std::vector<Vertex> vertices_;  ///< empty where no layer asks for the end
 };
-
-template <typename Radiance>
-SurfacePoint BasicPathTally<Radiance>::locate(const SurfaceLocation& at) {
-    if (at.mesh < 0 || at.face < 0) return {};
-    const auto mesh = static_cast<std::uint32_t>(at.mesh), face = static_cast<std::uint32_t>(at.face);
-    return at.barycentrics.x == at.barycentrics.x ? cursor_.locate(mesh, face, at.barycentrics) : cursor_.locate(mesh, face, at.position);
-}
 
 template <typename Radiance>
 void BasicPathTally<Radiance>::background() {
@@ -139,12 +155,15 @@ void BasicPathTally<Radiance>::background() {
 
 template <typename Radiance>
 void BasicPathTally<Radiance>::nextEvent(const SurfaceLocation& light) {
-    if (layers_.nextEvents) layers_.nextEvents.add(locate(light));
+    if (!layers_.nextEvents) return;
+    SurfacePoint point;
+    locate(light, point);
+    layers_.nextEvents.add(point);
 }
 
 template <typename Radiance>
 template <typename ToColor>
-void BasicPathTally<Radiance>::end(int depth, ToColor toColor) {
+void BasicPathTally<Radiance>::unwind(int depth, ToColor toColor) {
     Radiance arriving{0.f};  // at the vertex, from where the path went
     for (std::size_t i = vertices_.size(); i-- > 0;) {
         const Vertex& vertex = vertices_[i];
@@ -156,15 +175,12 @@ void BasicPathTally<Radiance>::end(int depth, ToColor toColor) {
         arriving = vertex.hit + reflected;
     }
     vertices_.clear();
-    here_ = {};
-    located_ = true;
-    saysThroughput_ = false;
 }
 
 /// The tally of renderers whose radiance is a colour.
 using PathTally = BasicPathTally<Color>;
 // Compiled once, in the library.
 extern template class BasicPathTally<Color>;
-extern template void BasicPathTally<Color>::end(int, std::identity);
+extern template void BasicPathTally<Color>::unwind(int, std::identity);
 
 }  // namespace emca

@@ -20,13 +20,15 @@ namespace detail {
 struct SurfaceCursorState;
 struct SurfaceCursorImpl;
 
-/// A point on one of all faces of all meshes.
+/// A point on a face of a mesh, as it was located.
 struct SurfacePlace {
-    std::uint32_t face = 0;        ///< of all meshes
-    std::uint32_t path = 0;        ///< surfacePath(); where only the position is known, the mesh
-    float position[3]{};
-    bool isPosition = false;
+    std::uint32_t face = 0, mesh = 0;
+    float coordinates[3]{};   ///< weights of the second and third vertex and 0, or a position
+    std::uint32_t flags = 0;  ///< kSurfacePosition
 };
+constexpr std::uint32_t kSurfaceNotCounted = 1;  ///< values of a point that is counted elsewhere
+constexpr std::uint32_t kSurfacePosition = 2;
+constexpr std::uint32_t kSurfacePlaceWords = 5;  ///< of a record in a log: face, mesh, coordinates
 }
 
 constexpr std::size_t kMaxSurfaceLayers = 4096;  ///< of one recorder
@@ -57,9 +59,9 @@ class SurfacePoint {
     friend class SurfaceCursor;
     friend struct detail::SurfaceCursorState;
     detail::SurfaceCursorState* cursor_ = nullptr;
-    std::uint32_t* record_ = nullptr;   ///< where values go while the block it is part of is still open
-    std::uint32_t serial_ = 0, shard_ = 0;
-    detail::SurfacePlace place_;        ///< for values that come later than that
+    std::uint32_t* values_ = nullptr;  ///< where values go while the half of the log that it is part of is still there
+    std::uint32_t serial_ = 0;         ///< of that half
+    detail::SurfacePlace place_;       ///< for values that come later than that
 };
 
 /// Handle to a layer of a recorder, a plain value. The default one belongs to no layer and ignores what is added, so that
@@ -83,8 +85,8 @@ class SurfaceLayer {
     friend struct detail::SurfaceCursorState;
     const void* recorder_ = nullptr;
     std::uint16_t index_ = 0;     ///< place in the list of layers
-    std::uint16_t maskWord_ = 0;  ///< of a record: the word that says which values are there, and the bit in it
-    std::uint16_t value_ = 0;     ///< of a record: the first word of the value
+    std::uint16_t maskWord_ = 0;  ///< of a record's values: the word that says which are there, and the bit in it
+    std::uint16_t value_ = 0;     ///< of a record's values: the first word of this one
     std::uint8_t bit_ = 0, channels_ = 1;
 };
 
@@ -100,7 +102,14 @@ class SurfaceCursor {
     ///                  its points at its first vertex.
     SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec3f position);
     /// The same with barycentric coordinates, weights of the second and third vertex: faster, as no vertex is read.
-    SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics);
+    SurfacePoint locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
+        SurfacePoint at;
+        locate(mesh, face, barycentrics, at);
+        return at;
+    }
+    /// The same, into a point that is there, member by member: a point that is copied as a whole right after it was made
+    /// waits for the narrow stores that made it, as long as all the rest takes.
+    void locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics, SurfacePoint& at);
 
   private:
     friend class SurfaceRecorder;
@@ -119,10 +128,11 @@ class SurfaceCursor {
 ///     …                                                      // when all threads are done:
 ///     SurfaceField field = recorder.finish();
 ///
-/// Threads write what they add to blocks of their own. A face belongs to one of many shards; a full block is handed to
-/// its shard, and whichever thread finds the shard free applies all blocks waiting there, while the others go on. So no
-/// thread waits for another, nodes are updated without atomic operations, and counts are exact. (Blocks are bounded: a
-/// thread all of whose blocks still wait at busy shards works for other shards, or gives up its time slice.)
+/// Threads write what they add to logs of their own, in the order of the calls. A face belongs to one of many shards; a
+/// full log is distributed to blocks, one per shard, a full block is handed to its shard, and whichever thread finds the
+/// shard free applies all blocks waiting there, while the others go on. So no thread waits for another, nodes are updated
+/// without atomic operations, and counts are exact. (Blocks are bounded: a thread all of whose blocks still wait at busy
+/// shards works for other shards, or gives up its time slice.)
 ///
 /// Memory: nothing before the first layer; a face's storage begins with its first point. Beyond the budget, faces do not
 /// divide any more, and faces without storage share bins with their neighbours in the mesh (counted as coarse); no
@@ -185,81 +195,61 @@ namespace detail {
 /// std::isfinite that also answers in renderers compiled with -ffast-math.
 constexpr bool finiteBits(float f) { return (std::bit_cast<std::uint32_t>(f) & 0x7f800000u) != 0x7f800000u; }
 
-/// What the inline parts of SurfaceCursor and SurfaceLayer need of a thread's cursor.
+/// What the inline parts of SurfaceCursor and SurfaceLayer need of a thread's cursor: its log, which has two halves. When
+/// one is full, the other is distributed and written anew, so that values may come later than their points.
 struct SurfaceCursorState {
-    /// Where the next record of a shard goes.
-    struct Open {
-        std::uint32_t* next = nullptr;
-        std::uint32_t* end = nullptr;
-        std::uint32_t serial = 1;  ///< number of the block
-    };
-    static constexpr std::uint32_t kNoFace = ~0u;
-
-    Open* open = nullptr;                      ///< per shard
-    const std::uint64_t* faceStarts = nullptr; ///< per mesh, and the end
-    std::uint32_t meshCount = 0;
-    std::uint32_t recordWords = 0, shardShift = 0, shardMask = 0;
-    const std::uint16_t* maskWords = nullptr;  ///< of a record; the first is behind the place
+    std::uint32_t* next = nullptr;             ///< the next record
+    std::uint32_t* end = nullptr;              ///< of this half
+    std::uint32_t serial = 0;                  ///< number of this half
+    std::uint32_t recordWords = 0;
+    const std::uint16_t* maskWords = nullptr;  ///< of a record's values; the first is its first word
     std::uint32_t maskWordCount = 0;
+    bool hasPositions = false;                 ///< some record was ever located by its position
     SurfaceCursorImpl* impl = nullptr;         ///< all the rest
 
-    /// The global face; kNoFace, and counted as invalid, if there is no such place. Faces beyond 2^32 - 1 do not take part.
-    std::uint32_t check(std::uint32_t mesh, std::uint32_t face, bool finite) {
-        if (mesh < meshCount && finite) [[likely]] {
-            const std::uint64_t global = faceStarts[mesh] + face;
-            if (global < faceStarts[mesh + 1] && global < kNoFace) [[likely]] return static_cast<std::uint32_t>(global);
-        }
-        countInvalid();
-        return kNoFace;
-    }
-    std::uint32_t shardOf(std::uint32_t face) const {
-        const std::uint32_t run = static_cast<std::uint32_t>(std::uint64_t(face) >> shardShift);
-        return (run ^ run >> 7 ^ run >> 13) & shardMask;
-    }
-    /// Room for `records` records, one after the other, with no values yet in the last; place and flags are for the
-    /// caller to write.
-    std::uint32_t* append(std::uint32_t shard, std::uint32_t records = 1) {
-        Open& to = open[shard];
-        const std::uint32_t words = records * recordWords;
-        if (to.end - to.next < static_cast<std::ptrdiff_t>(words)) [[unlikely]] replaceBlock(shard);
-        std::uint32_t* record = to.next;
-        to.next += words;
+    /// A record of a place, with no values yet. Its words stand behind kSurfacePlaceWords.
+    std::uint32_t* append(std::uint32_t mesh, std::uint32_t face, float x, float y, float z, std::uint32_t flags) {
+        if (next == end) [[unlikely]] turn();
+        std::uint32_t* const record = next;
+        next += recordWords;
+        record[0] = face;
+        record[1] = mesh;
+        record[2] = std::bit_cast<std::uint32_t>(x);
+        record[3] = std::bit_cast<std::uint32_t>(y);
+        record[4] = std::bit_cast<std::uint32_t>(z);
         // Values are read only where a mask says so. The first mask holds the flags.
-        for (std::uint32_t i = 1; i < maskWordCount; ++i) (to.next - recordWords)[maskWords[i]] = 0;
-        return record;
+        record[kSurfacePlaceWords] = flags;
+        for (std::uint32_t i = 1; i < maskWordCount; ++i) record[kSurfacePlaceWords + maskWords[i]] = 0;
+        return record + kSurfacePlaceWords;
     }
-    void replaceBlock(std::uint32_t shard);
-    void countInvalid();
-    /// Adds a value whose block is gone, or whose place in the record is taken, or which is not finite.
+    /// Whether the values of a record are still to be distributed.
+    bool holds(std::uint32_t itsSerial) const { return serial - itsSerial <= 1; }
+    /// To the other half.
+    void turn();
+    /// Adds a value whose record is gone, or whose place in the record is taken, or which is not finite.
     static void addLate(const SurfacePoint& at, const SurfaceLayer& layer, Color value);
 };
 
 }  // namespace detail
 
-inline SurfacePoint SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics) {
-    SurfacePoint at;
-    if (state_ == nullptr) return at;
-    const std::uint32_t global =
-        state_->check(mesh, face, detail::finiteBits(barycentrics.x) && detail::finiteBits(barycentrics.y));
-    if (global == detail::SurfaceCursorState::kNoFace) [[unlikely]] return at;
-    std::uint32_t u = 0, v = 0;
-    detail::toFixed(barycentrics.x, barycentrics.y, u, v);
+inline void SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f barycentrics, SurfacePoint& at) {
     at.cursor_ = state_;
-    at.shard_ = state_->shardOf(global);
-    at.record_ = state_->append(at.shard_);
-    at.serial_ = state_->open[at.shard_].serial;
-    at.place_.face = at.record_[0] = global;
-    at.place_.path = at.record_[1] = detail::surfacePath(u, v);
-    at.record_[2] = 0;
-    return at;
+    if (state_ == nullptr) return;
+    at.values_ = state_->append(mesh, face, barycentrics.x, barycentrics.y, 0.f, 0);
+    at.serial_ = state_->serial;
+    at.place_.face = face;
+    at.place_.mesh = mesh;
+    at.place_.coordinates[0] = barycentrics.x;
+    at.place_.coordinates[1] = barycentrics.y;
+    at.place_.flags = 0;
 }
 
 inline void SurfaceLayer::add(const SurfacePoint& at, float value) const {
     if (!recorder_ || !at.cursor_) return;
-    if (at.cursor_->open[at.shard_].serial == at.serial_ && channels_ == 1 && detail::finiteBits(value) &&
-        !(at.record_[maskWord_] >> bit_ & 1)) [[likely]] {
-        at.record_[maskWord_] |= 1u << bit_;
-        at.record_[value_] = std::bit_cast<std::uint32_t>(value);
+    if (at.cursor_->holds(at.serial_) && channels_ == 1 && detail::finiteBits(value) &&
+        !(at.values_[maskWord_] >> bit_ & 1)) [[likely]] {
+        at.values_[maskWord_] |= 1u << bit_;
+        at.values_[value_] = std::bit_cast<std::uint32_t>(value);
         return;
     }
     detail::SurfaceCursorState::addLate(at, *this, Color(value));
@@ -268,12 +258,12 @@ inline void SurfaceLayer::add(const SurfacePoint& at, float value) const {
 inline void SurfaceLayer::add(const SurfacePoint& at, Color value) const {
     if (!recorder_ || !at.cursor_) return;
     if (channels_ == 1) return add(at, luminance(value));
-    if (at.cursor_->open[at.shard_].serial == at.serial_ && detail::finiteBits(value.r) && detail::finiteBits(value.g) &&
-        detail::finiteBits(value.b) && !(at.record_[maskWord_] >> bit_ & 1)) [[likely]] {
-        at.record_[maskWord_] |= 1u << bit_;
-        at.record_[value_] = std::bit_cast<std::uint32_t>(value.r);
-        at.record_[value_ + 1] = std::bit_cast<std::uint32_t>(value.g);
-        at.record_[value_ + 2] = std::bit_cast<std::uint32_t>(value.b);
+    if (at.cursor_->holds(at.serial_) && detail::finiteBits(value.r) && detail::finiteBits(value.g) &&
+        detail::finiteBits(value.b) && !(at.values_[maskWord_] >> bit_ & 1)) [[likely]] {
+        at.values_[maskWord_] |= 1u << bit_;
+        at.values_[value_] = std::bit_cast<std::uint32_t>(value.r);
+        at.values_[value_ + 1] = std::bit_cast<std::uint32_t>(value.g);
+        at.values_[value_ + 2] = std::bit_cast<std::uint32_t>(value.b);
         return;
     }
     detail::SurfaceCursorState::addLate(at, *this, value);
