@@ -4,6 +4,10 @@
 
 namespace emca::render {
 
+void SurfaceTally::place(std::int32_t mesh, std::int32_t face, float u, float v, const Vec3f& position) {
+    PathTally::intersection({mesh, face, position, {u, v}});
+}
+
 void SurfaceTally::nextEvent(const EmitterSample& light) {
     if (!wantsNextEvents() || !light.shape) return;
     const bool known = light.face >= 0;

@@ -41,6 +41,8 @@ struct SurfaceLocation {
     std::int32_t mesh = -1, face = -1;        ///< as for setIntersectionSurface; negative: on no surface
     Vec3f position;                           ///< world space; read where there are no barycentrics
     Vec2f barycentrics{kUnknown, kUnknown};   ///< weights of the triangle's second and third vertex, if known
+
+    bool hasBarycentrics() const { return barycentrics.x == barycentrics.x; }
 };
 
 /// What one thread's paths add to the path layers. Belongs to one thread and one render; changes nothing about the path.
@@ -63,10 +65,7 @@ class BasicPathTally {
     void intersection(const SurfaceLocation& at) {
         SurfacePoint& point = layers_.perPath ? vertices_.emplace_back().point : here_;
         located_ = layers_.perPath || layers_.intersections;
-        if (!located_) {
-            at_ = at;
-            return;
-        }
+        if (!located_) return keep(at);
         locate(at, point);
         layers_.intersections.add(point);
     }
@@ -118,13 +117,20 @@ class BasicPathTally {
         SurfacePoint point;
         Radiance throughput{0.f}, hit{0.f}, direct{0.f}, factor{0.f};
     };
+    /// For later, only what locate() will read: a position that was just found is still on its way to the cache.
+    void keep(const SurfaceLocation& at) {
+        at_.mesh = at.mesh;
+        at_.face = at.face;
+        at_.barycentrics = at.barycentrics;
+        if (!at.hasBarycentrics()) at_.position = at.position;
+    }
     void locate(const SurfaceLocation& at, SurfacePoint& point) {
         if (at.mesh < 0 || at.face < 0) {
             point = {};
             return;
         }
         const auto mesh = static_cast<std::uint32_t>(at.mesh), face = static_cast<std::uint32_t>(at.face);
-        if (at.barycentrics.x == at.barycentrics.x) {
+        if (at.hasBarycentrics()) {
             cursor_.locate(mesh, face, at.barycentrics, point);
         } else {
             point = cursor_.locate(mesh, face, at.position);

@@ -13,10 +13,15 @@ class SurfaceTally : public PathTally {
 
     /// \param throughput  of the camera path up to here
     void intersection(const SurfaceInteraction& at, Color throughput) {
-        PathTally::intersection({at.mesh, at.face, at.position, at.barycentrics});
+        place(at.mesh, at.face, at.barycentrics.x, at.barycentrics.y, at.position);
         PathTally::throughput(throughput);
     }
     void nextEvent(const EmitterSample& light);
+
+  private:
+    /// Numbers by value, into a function of its own: in the integrator the compiler would load pairs of what was just
+    /// written one by one, which waits until that has reached the cache.
+    void place(std::int32_t mesh, std::int32_t face, float u, float v, const Vec3f& position);
 };
 
 }  // namespace emca::render
