@@ -65,64 +65,49 @@ bool SurfaceStore::help() {
     return found;
 }
 
-/// Keeps a function that only prefetches: GCC takes it for one without effect and removes its calls.
-inline void keepPrefetches() {
-#ifdef __GNUC__
-    asm volatile("" ::: "memory");
-#endif
-}
-
 void SurfaceStore::apply(SurfaceShard& shard, SurfaceBlock& block) {
-    const std::uint32_t* record = block.data();
     const std::uint32_t words = recordWords(), count = block.words / words;
-    const auto ahead = [&](std::uint32_t group, std::uint32_t done) {  // how many records that group has
-        return std::min<std::uint32_t>(kLanes, count - std::min(count, done + group * kLanes));
-    };
-    const std::size_t groupWords = std::size_t(kLanes) * words;
-    // Two groups at once: while the nodes of one are on their way, the other looks for its own. A triangle that divides
-    // in between keeps what the later group found it for, as it does with points of other threads.
-    Lane lanes[2][kLanes];
-    std::uint32_t pending = 0;
-    prefetchFaces(record, ahead(0, 0));
-    prefetchFaces(record + groupWords, ahead(1, 0));
-    for (std::uint32_t done = 0, turn = 0; done < count; done += kLanes, record += groupWords, turn ^= 1) {
-        prefetchFaces(record + 2 * groupWords, ahead(2, done));
-        const std::uint32_t used = ahead(0, done);
-        findNodes(shard, record, used, lanes[turn]);
-        for (std::uint32_t i = 0; i < pending; ++i) addRecord(shard, lanes[turn ^ 1][i]);
-        pending = used;
-        if (done + kLanes >= count)
-            for (std::uint32_t i = 0; i < used; ++i) addRecord(shard, lanes[turn][i]);
+    const std::uint32_t groups = (count + kLanes - 1) / kLanes;
+    const auto begin = [&](std::uint32_t group) { return block.data() + std::size_t(group) * kLanes * words; };
+    const auto size = [&](std::uint32_t group) { return std::min(kLanes, count - group * kLanes); };
+    // Four groups at once, each a step behind the next: what one step asks for has the time of the three others to come.
+    // A triangle that divides in between keeps what the later groups found it for, as it does with points of other threads.
+    Lane lanes[4][kLanes];
+    for (std::uint32_t step = 0; step < groups + 3; ++step) {
+        if (step < groups) findFaces(begin(step), size(step), lanes[step % 4]);
+        if (const std::uint32_t group = step - 1; group < groups) leaveFaces(shard, size(group), lanes[group % 4]);
+        if (const std::uint32_t group = step - 2; group < groups) findNodes(size(group), lanes[group % 4]);
+        if (const std::uint32_t group = step - 3; group < groups) addRecords(shard, size(group), lanes[group % 4]);
     }
 }
 
-/// Before records are applied: what their faces are found by.
-void SurfaceStore::prefetchFaces(const std::uint32_t* record, std::uint32_t count) const {
-    keepPrefetches();
-    for (std::uint32_t i = 0, words = recordWords(); i < count; ++i, record += words)
-        if (const SurfaceRef* slot = slotOf(record[0])) __builtin_prefetch(slot);
+/// What the faces of records are found by.
+void SurfaceStore::findFaces(const std::uint32_t* record, std::uint32_t count, Lane* lanes) const {
+    for (std::uint32_t i = 0, words = recordWords(); i < count; ++i, record += words) {
+        SurfaceRef* slot = slotOf(record[0]);
+        if (slot != nullptr) __builtin_prefetch(slot);
+        lanes[i] = {slot, nullptr, record, record[1]};
+    }
 }
 
-/// From records to the nodes of the smallest triangles that contain the points, level by level: what is prefetched in one
+/// The first step down, where a face is divided.
+void SurfaceStore::leaveFaces(SurfaceShard& shard, std::uint32_t count, Lane* lanes) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Lane& lane = lanes[i];
+        if (lane.slot == nullptr || !*lane.slot) [[unlikely]]
+            lane.slot = newSlot(shard, lane.record);
+        if (!lane.slot->ends()) step(lane);
+    }
+}
+
+/// From there to the nodes of the smallest triangles that contain the points, level by level: what is prefetched in one
 /// round is there in the next.
-void SurfaceStore::findNodes(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes) {
-    std::uint32_t points = 0, active[kLanes], left = 0;
-    for (std::uint32_t i = 0, words = recordWords(); i < count; ++i, record += words) {
-        const std::uint32_t face = record[0], counted = ~record[kPlaceWords] & kSurfaceNotCounted;
-        SurfaceRef* slot = slotOf(face);
-        if (slot == nullptr || !*slot) [[unlikely]] {
-            slot = newRoot(shard, face);
-            if (slot == nullptr) {
-                slot = binOf(face);
-                bump(shard.coarse, counted);
-            }
-        }
-        points += counted;
-        lanes[i] = {slot, nullptr, record, record[1]};
+void SurfaceStore::findNodes(std::uint32_t count, Lane* lanes) const {
+    std::uint32_t active[kLanes], left = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
         active[left] = i;
         left += descend(lanes[i]);
     }
-    bump(shard.points, points);
     while (left > 0) {
         std::uint32_t still = 0;
         for (std::uint32_t k = 0; k < left; ++k) {
@@ -142,12 +127,18 @@ inline bool SurfaceStore::descend(Lane& lane) const {
             prefetchForWriting(reinterpret_cast<std::byte*>(lane.node) + line);
         return false;
     }
+    step(lane);
+    return true;
+}
+
+/// To the reference below one that does not end.
+inline void SurfaceStore::step(Lane& lane) const {
+    const SurfaceRef ref = *lane.slot;
     const bool jumps = ref.kind() == SurfaceRef::table;
     const std::uint32_t levels = jumps ? ref.levels() : 1;
     lane.slot = (jumps ? ref.entries() : ref.children()) + (lane.path >> (32 - 2 * levels));
     lane.path <<= 2 * levels;
     __builtin_prefetch(lane.slot);
-    return true;
 }
 
 /// Adds the values of one mask, whose bit 0 belongs to `layout`.
@@ -167,11 +158,18 @@ inline void SurfaceStore::addValues(SurfaceNode* node, const std::uint32_t* valu
     }
 }
 
-void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
+void SurfaceStore::addRecords(SurfaceShard& shard, std::uint32_t count, const Lane* lanes) {
+    std::uint64_t points = 0;
+    for (std::uint32_t i = 0; i < count; ++i) points += addRecord(shard, lanes[i]);
+    bump(shard.points, points);
+}
+
+/// How many points it counts as.
+inline std::uint32_t SurfaceStore::addRecord(SurfaceShard& shard, const Lane& lane) {
     SurfaceNode* node = lane.node;
     const std::uint32_t* values = lane.record + kPlaceWords;
-    const std::uint32_t mask = values[0];
-    const std::uint32_t points = node->points += ~mask & kSurfaceNotCounted;
+    const std::uint32_t mask = values[0], counted = ~mask & kSurfaceNotCounted;
+    const std::uint32_t points = node->points += counted;
     const SurfaceLayerLayout* layouts = layouts_.data();
     addValues(node, values, mask >> kFirstMaskFlags, layouts);
     for (std::size_t i = 1; i < maskWords_.size(); ++i)
@@ -182,12 +180,21 @@ void SurfaceStore::addRecord(SurfaceShard& shard, Lane& lane) {
     }
     if (points >= pointsToDivide_ && points < SurfaceNode::kFinal) [[unlikely]]
         divide(shard, node, lane.record);
+    return counted;
 }
 
 SurfaceRef* SurfaceStore::slotOf(std::uint32_t face) const {
     if (!storesFaces_) return nullptr;
     Page* page = pages_[face >> pageBits_];
     return page == nullptr ? nullptr : &page->roots[face & ((1u << pageBits_) - 1)];
+}
+
+/// For a record whose face has none yet, which may meanwhile have got it.
+SurfaceRef* SurfaceStore::newSlot(SurfaceShard& shard, const std::uint32_t* record) {
+    if (SurfaceRef* slot = slotOf(record[0]); slot != nullptr && *slot) return slot;
+    if (SurfaceRef* slot = newRoot(shard, record[0])) return slot;
+    bump(shard.coarse, ~record[kPlaceWords] & kSurfaceNotCounted);
+    return binOf(record[0]);
 }
 
 SurfaceRef* SurfaceStore::newRoot(SurfaceShard& shard, std::uint32_t face) {

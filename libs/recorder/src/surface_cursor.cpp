@@ -130,18 +130,19 @@ void SurfaceCursorImpl::distribute(std::uint32_t* records, const std::uint32_t* 
     }
     for (std::size_t i = 0; i < count; ++i) paths[i] = surfacePath(us[i], vs[i]);
     const std::uint32_t valueWords = recordWords - kSurfacePlaceWords;
-    const std::ptrdiff_t words = kPlaceWords + valueWords;
+    const SurfaceStore::Sharding sharding = store_.sharding();
+    Open* const open = open_.data();
     const std::uint32_t* values = records + kSurfacePlaceWords;
     for (std::size_t i = 0; i < count; ++i, values += recordWords) {
         if (faces[i] == kNoFace) [[unlikely]] {
             if (!(values[0] & kSurfaceNotCounted)) bump(invalid, 1);
             continue;
         }
-        const std::uint32_t shard = store_.shardOf(faces[i]);
-        Open& to = open_[shard];
-        if (to.end - to.next < words) [[unlikely]] replaceBlock(shard);
+        const std::uint32_t shard = sharding.of(faces[i]);
+        Open& to = open[shard];
+        if (to.next >= to.full) [[unlikely]] replaceBlock(shard);
         std::uint32_t* const out = to.next;
-        to.next = out + words;
+        to.next = out + kPlaceWords + valueWords;
         out[0] = faces[i];
         out[1] = paths[i];
         for (std::uint32_t word = 0; word < valueWords; word += kCopyWords)
@@ -161,7 +162,7 @@ void SurfaceCursorImpl::replaceBlock(std::uint32_t shard) {
     closeBlock(shard);
     SurfaceBlock* block = newBlock();
     const std::size_t words = (store_.blockBytes() - sizeof(SurfaceBlock)) / sizeof(std::uint32_t) - kCopyWords;
-    open_[shard] = {block->data(), block->data() + words, block};
+    open_[shard] = {block->data(), block->data() + words - store_.recordWords() + 1, block};
 }
 
 SurfaceBlock* SurfaceCursorImpl::newBlock() {

@@ -64,16 +64,22 @@ void SurfaceStore::divideAll(double part) {
         for (std::uint64_t face = page << pageBits_; face < end; ++face) {
             SurfaceRef* slot = slotOf(static_cast<std::uint32_t>(face));
             if (!*slot) continue;
+            if (slot->kind() == SurfaceRef::table) freeTables_[slot->levels()].push_back(slot->entries());
             *slot = slot->tree();
             divideBelow(*slot, static_cast<std::uint32_t>(face), 0, 0, growth);
-            makeTable(shards_[shardOf(static_cast<std::uint32_t>(face))], *slot);
         }
+    }
+    // Last, so that tables stand side by side, and in the place of old ones.
+    for (std::uint64_t page = 0; storesFaces_ && page << pageBits_ < faceCount_; ++page) {
+        if (pages_[page] == nullptr) continue;
+        for (SurfaceRef& root : std::span(pages_[page]->roots, std::size_t(1) << pageBits_))
+            if (root) makeTable(root);
     }
 }
 
 namespace {
 
-constexpr std::uint32_t kMostTableLevels = 5, kFewestTableLevels = 2;  // 8 KiB: below, triangles are small
+constexpr std::uint32_t kFewestTableLevels = 2;
 
 /// References at which the way down ends.
 std::uint64_t countEnds(SurfaceRef ref) {
@@ -92,20 +98,31 @@ void fillTable(SurfaceRef ref, std::size_t nodeBytes, std::span<SurfaceRef> entr
 }  // namespace
 
 /// Of what is divided often enough, if there is room: at most two entries for each end of a way.
-void SurfaceStore::makeTable(SurfaceShard& shard, SurfaceRef& ref) {
+void SurfaceStore::makeTable(SurfaceRef& ref) {
     const std::uint64_t most = 2 * countEnds(ref);
     std::uint32_t levels = 0;
     while (levels < kMostTableLevels && std::uint64_t(4) << 2 * levels <= most) ++levels;
     if (levels < kFewestTableLevels) return;
-    // In front of the entries: the reference that they stand for, and what aligns them.
-    const std::size_t count = std::size_t(1) << 2 * levels, bytes = (count + 1) * sizeof(SurfaceRef) + 64;
-    std::byte* memory = bytes <= chunkBytes_ ? allocate(shard, bytes) : nullptr;
-    if (memory == nullptr) return;
-    const auto begin = reinterpret_cast<std::uintptr_t>(memory) + sizeof(SurfaceRef);
-    auto* entries = reinterpret_cast<SurfaceRef*>((begin + 63) / 64 * 64);
+    SurfaceRef* entries = newTable(levels);
+    if (entries == nullptr) return;
     entries[-1] = ref;
-    fillTable(ref, nodeBytes_, {entries, count});
+    fillTable(ref, nodeBytes_, {entries, std::size_t(1) << 2 * levels});
     ref = SurfaceRef::tableOf(entries, levels);
+}
+
+/// Entries behind the reference that they stand for, and what aligns them; null beyond the budget.
+SurfaceRef* SurfaceStore::newTable(std::uint32_t levels) {
+    std::vector<SurfaceRef*>& old = freeTables_[levels];
+    if (!old.empty()) {
+        SurfaceRef* entries = old.back();
+        old.pop_back();
+        return entries;
+    }
+    const std::size_t bytes = ((std::size_t(1) << 2 * levels) + 1) * sizeof(SurfaceRef) + 64;
+    std::byte* memory = allocate(tables_, bytes);
+    if (memory == nullptr) return nullptr;
+    const auto begin = reinterpret_cast<std::uintptr_t>(memory) + sizeof(SurfaceRef);
+    return reinterpret_cast<SurfaceRef*>((begin + 63) / 64 * 64);
 }
 
 /// \param inherited  points that came before the triangle was divided off, were they spread evenly

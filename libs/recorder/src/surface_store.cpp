@@ -147,7 +147,7 @@ void SurfaceStore::divideBudget() {
 std::byte* SurfaceStore::allocate(SurfaceShard& shard, std::size_t bytes, std::size_t alignment) {
     const auto gap = [&] { return (~reinterpret_cast<std::uintptr_t>(shard.free) + 1) & (alignment - 1); };
     const auto left = static_cast<std::size_t>(shard.freeEnd - shard.free);
-    if (left < gap() + bytes && !nextChunk(shard)) return nullptr;
+    if (left < gap() + bytes && !nextChunks(shard, bytes)) return nullptr;
     std::byte* memory = shard.free + gap();
     shard.free = memory + bytes;
     return memory;
@@ -157,26 +157,34 @@ SurfaceNode* SurfaceStore::allocateNodes(SurfaceShard& shard, std::size_t count,
     return reinterpret_cast<SurfaceNode*>(allocate(shard, count * nodeBytes_ + more, nodeAlignment_));
 }
 
-bool SurfaceStore::nextChunk(SurfaceShard& shard) {
-    if (nextChunk_.load(std::memory_order_relaxed) >= chunkCount_) return false;
-    const std::uint64_t chunk = nextChunk_.fetch_add(1, std::memory_order_relaxed);
-    if (chunk >= chunkCount_) return false;
+/// Room for so many bytes, however they are aligned: one chunk for all but tables. What is left of the last is lost, unless
+/// the next follows it.
+bool SurfaceStore::nextChunks(SurfaceShard& shard, std::size_t bytes) {
+    const std::uint64_t count = std::max<std::uint64_t>(1, (bytes + chunkBytes_ - 1) / chunkBytes_);
+    if (count > chunksPerSlab_ || nextChunk_.load(std::memory_order_relaxed) + count > chunkCount_) return false;
+    std::uint64_t chunk = nextChunk_.fetch_add(count, std::memory_order_relaxed);
+    if (chunk % chunksPerSlab_ + count > chunksPerSlab_) {  // never across slabs; several are taken while no thread records
+        chunk = (chunk / chunksPerSlab_ + 1) * chunksPerSlab_;
+        nextChunk_.store(chunk + count, std::memory_order_relaxed);
+    }
+    if (chunk + count > chunkCount_) return false;
     std::atomic<std::byte*>& slab = slabs_[chunk / chunksPerSlab_];
     std::byte* memory = slab.load(std::memory_order_acquire);
     if (memory == nullptr) {
-        const std::size_t bytes = chunksPerSlab_ * chunkBytes_;
-        std::byte* fresh = newSlab(bytes);
+        const std::size_t slabBytes = chunksPerSlab_ * chunkBytes_;
+        std::byte* fresh = newSlab(slabBytes);
         if (fresh == nullptr) return false;  // the machine has less than the budget promised
         if (slab.compare_exchange_strong(memory, fresh, std::memory_order_acq_rel)) {
             memory = fresh;
-            addUsed(bytes);
+            addUsed(slabBytes);
         } else {
             std::free(fresh);  // another thread was faster
         }
     }
-    shard.free = memory + chunk % chunksPerSlab_ * chunkBytes_;
-    shard.freeEnd = shard.free + chunkBytes_;
-    std::memset(shard.free, 0, chunkBytes_);
+    std::byte* const first = memory + chunk % chunksPerSlab_ * chunkBytes_;
+    if (first != shard.freeEnd || chunk % chunksPerSlab_ == 0) shard.free = first;
+    shard.freeEnd = first + count * chunkBytes_;
+    std::memset(first, 0, count * chunkBytes_);
     return true;
 }
 

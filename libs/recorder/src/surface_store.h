@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -146,10 +147,16 @@ class SurfaceStore {
     /// See SurfaceRecorder::passDone.
     void divideAll(double part);
 
-    std::uint32_t shardOf(std::uint32_t face) const {
-        const auto run = static_cast<std::uint32_t>(std::uint64_t(face) >> shardShift_);
-        return (run ^ run >> 7 ^ run >> 13) & (shardCount_ - 1);
-    }
+    /// Which shard a face belongs to: a small value, to have at hand where many are asked for.
+    struct Sharding {
+        std::uint32_t shift = 0, mask = 0;
+        std::uint32_t of(std::uint32_t face) const {
+            const auto run = static_cast<std::uint32_t>(std::uint64_t(face) >> shift);
+            return (run ^ run >> 7 ^ run >> 13) & mask;
+        }
+    };
+    Sharding sharding() const { return {shardShift_, shardCount_ - 1}; }
+    std::uint32_t shardOf(std::uint32_t face) const { return sharding().of(face); }
     /// Mesh that a global face belongs to.
     std::uint32_t meshOf(std::uint32_t face) const;
     /// World-space area of a face of the scene; 0 if it has none or a vertex is missing or not finite.
@@ -197,6 +204,8 @@ class SurfaceStore {
     void addUsed(std::size_t bytes) { bytesUsed_.fetch_add(bytes, std::memory_order_relaxed); }
 
   private:
+    static constexpr std::uint32_t kMostTableLevels = 8;  ///< 512 KiB: below, triangles are small
+
     struct Page { SurfaceRef roots[1]; };
     struct Lane;
 
@@ -216,24 +225,29 @@ class SurfaceStore {
     void divideBudget();
     void applyWaiting(SurfaceShard& shard);
     void apply(SurfaceShard& shard, SurfaceBlock& block);
-    void prefetchFaces(const std::uint32_t* record, std::uint32_t count) const;
-    void findNodes(SurfaceShard& shard, const std::uint32_t* record, std::uint32_t count, Lane* lanes);
+    void findFaces(const std::uint32_t* record, std::uint32_t count, Lane* lanes) const;
+    void leaveFaces(SurfaceShard& shard, std::uint32_t count, Lane* lanes);
+    void findNodes(std::uint32_t count, Lane* lanes) const;
     bool descend(Lane& lane) const;
-    void addRecord(SurfaceShard& shard, Lane& lane);
+    void step(Lane& lane) const;
+    void addRecords(SurfaceShard& shard, std::uint32_t count, const Lane* lanes);
+    std::uint32_t addRecord(SurfaceShard& shard, const Lane& lane);
     void addValues(SurfaceNode* node, const std::uint32_t* values, std::uint32_t mask, const SurfaceLayerLayout* layout);
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
     void divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited, double growth);
-    void makeTable(SurfaceShard& shard, SurfaceRef& ref);
+    void makeTable(SurfaceRef& ref);
+    SurfaceRef* newTable(std::uint32_t levels);
     bool mayDivide(std::uint32_t face, std::uint32_t level) const;
     SurfaceRef* slotOf(std::uint32_t face) const;
+    SurfaceRef* newSlot(SurfaceShard& shard, const std::uint32_t* record);
     SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
     SurfaceRef* binOf(std::uint32_t face);
     /// Zeros; null beyond the budget. \param alignment  a power of two up to 64
     std::byte* allocate(SurfaceShard& shard, std::size_t bytes, std::size_t alignment = alignof(SurfaceRef));
     /// Nodes, one after the other, and `more` bytes.
     SurfaceNode* allocateNodes(SurfaceShard& shard, std::size_t count, std::size_t more = 0);
-    bool nextChunk(SurfaceShard& shard);
+    bool nextChunks(SurfaceShard& shard, std::size_t bytes);
 
     std::vector<SurfaceMeshView> meshes_;
     SurfaceOptions options_;
@@ -253,6 +267,8 @@ class SurfaceStore {
     std::uint64_t chunkCount_ = 0;
     bool storesFaces_ = true;  ///< false if the budget does not even hold a table of faces: bins only
     std::unique_ptr<SurfaceShard[]> shards_;
+    SurfaceShard tables_;  ///< where tables come from, while no thread records
+    std::array<std::vector<SurfaceRef*>, kMostTableLevels + 1> freeTables_;  ///< by their levels
     std::unique_ptr<Page*[]> pages_;        ///< 2^pageBits faces each; written by the owner of their shard
     std::unique_ptr<SurfaceRef[]> bins_;  ///< one per run of 2^runBits pages, for faces without storage
     std::unique_ptr<std::atomic<std::byte*>[]> slabs_;
@@ -284,7 +300,7 @@ struct SurfaceCursorImpl : SurfaceCursorState {
     /// Where the next record of a shard goes.
     struct Open {
         std::uint32_t* next = nullptr;
-        std::uint32_t* end = nullptr;
+        std::uint32_t* full = nullptr;  ///< from here on, there is no room for a record
         SurfaceBlock* block = nullptr;
     };
     std::uint32_t globalFace(std::uint32_t mesh, std::uint32_t face) const;
