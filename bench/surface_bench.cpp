@@ -83,7 +83,7 @@ double processorSeconds(clockid_t clock) {
 Times run(const Workload& work, int threads) {
     using Clock = std::chrono::steady_clock;
     const std::vector<Mesh> meshes = {terrain(work.side)};
-    SurfaceRecorder recorder(meshes, {.budgetBytes = work.budget, .minimumEdge = 0});
+    SurfaceRecorder recorder(meshes, {.budgetBytes = work.budget, .samplesPerDivision = 256, .minimumEdge = 0});
     std::vector<SurfaceLayer> layers;
     for (int i = 0; i < work.layers; ++i)
         layers.push_back(*recorder.addLayer({"value " + std::to_string(i), LayerKind::mean, "", ""}));

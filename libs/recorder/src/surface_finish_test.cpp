@@ -172,7 +172,7 @@ TEST(SurfaceFinish, APassMayVisitTheSurfaceInAnyOrder) {
     const int samples = 320000, parts = 32;
     double deviation[2];
     for (const bool told : {false, true}) {
-        SurfaceRecorder recorder(meshes, {.minimumEdge = 0});
+        SurfaceRecorder recorder(meshes, {.samplesPerDivision = 256, .minimumEdge = 0});
         const SurfaceLayer density = *recorder.addLayer({"density", LayerKind::density, "", ""});
         UniformPoints points(meshes[0], 31);
         for (int first = 0, last = 1; first < parts; first = std::exchange(last, 4 * last < parts ? 2 * last : parts)) {
@@ -196,11 +196,12 @@ TEST(SurfaceFinish, APassMayVisitTheSurfaceInAnyOrder) {
     EXPECT_GT(deviation[0], 2 * deviation[1]);
 }
 
-TEST(SurfaceFinish, AfterAPassPointsReachTheTrianglesThatHoldThem) {
-    // Points crowd around a corner, so that levels differ by much. A layer that begins after a pass has nothing from above:
-    // the mean of a coordinate lies within the triangle that it is of.
+/// Points crowd around a corner, so that levels differ by much. A layer that begins after a pass has nothing from above: the
+/// mean of a coordinate lies within the triangle that it is of.
+void expectPointsInTheirTriangles(int pointsInAPass, std::size_t budget, std::size_t fewestTriangles) {
+    SCOPED_TRACE(pointsInAPass);
     const std::vector<Mesh> meshes = {grid(1)};
-    SurfaceRecorder recorder(meshes, {.samplesPerDivision = 16, .minimumEdge = 0});
+    SurfaceRecorder recorder(meshes, {.budgetBytes = budget, .samplesPerDivision = 16, .minimumEdge = 0});
     const SurfaceLayer density = *recorder.addLayer({"density", LayerKind::density, "", ""});
     const SurfaceLayer across = *recorder.addLayer({"x", LayerKind::mean, "", ""});
     UniformPoints points(meshes[0], 8);
@@ -214,14 +215,16 @@ TEST(SurfaceFinish, AfterAPassPointsReachTheTrianglesThatHoldThem) {
         }
     };
     for (int pass = 0; pass < 3; ++pass) {
-        record(20000, false);
+        record(pointsInAPass, false);
         recorder.passDone((pass + 1) / 8.0);
     }
-    record(100000, true);
+    record(5 * pointsInAPass, true);
+    EXPECT_LE(recorder.counts().bytesUsed, budget);
     const SurfaceField field = recorder.finish();
-    EXPECT_EQ(field.layers[1].samples, 100000u);
+    EXPECT_EQ(field.layers[0].samples, 8u * std::uint64_t(pointsInAPass));
+    EXPECT_EQ(field.layers[1].samples, 5u * std::uint64_t(pointsInAPass));
     const Refined refined(meshes[0], field);
-    ASSERT_GT(refined.areas.size(), 3000u);
+    ASSERT_GT(refined.areas.size(), fewestTriangles);
     std::size_t compared = 0;
     for (std::size_t i = 0; i < refined.areas.size(); ++i) {
         if (field.points[i] < 16) continue;  // perhaps all of them came before the layer
@@ -231,11 +234,17 @@ TEST(SurfaceFinish, AfterAPassPointsReachTheTrianglesThatHoldThem) {
             right = std::max(right, refined.mesh.positions[v].x);
         }
         const float mean = field.layers[1].values[i];
-        EXPECT_GE(mean, left - 1e-6f) << i;
-        EXPECT_LE(mean, right + 1e-6f) << i;
+        ASSERT_GE(mean, left - 1e-6f) << i;
+        ASSERT_LE(mean, right + 1e-6f) << i;
         ++compared;
     }
-    EXPECT_GT(compared, 500u);
+    EXPECT_GT(compared, fewestTriangles / 6);
+}
+
+TEST(SurfaceFinish, AfterAPassPointsReachTheTrianglesThatHoldThem) {
+    expectPointsInTheirTriangles(20000, 256u << 20, 3000);
+    expectPointsInTheirTriangles(400000, 256u << 20, 60000);  // tables of many chunks, and new ones in the place of old ones
+    expectPointsInTheirTriangles(400000, 4u << 20, 2000);     // and where there is hardly room for any
 }
 
 TEST(SurfaceFinish, AnEdgeInTheDensityStaysAnEdge) {

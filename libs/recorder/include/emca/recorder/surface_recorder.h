@@ -41,7 +41,9 @@ struct SurfaceMeshView {
 
 struct SurfaceOptions {
     std::size_t budgetBytes = 256u << 20;     ///< for everything a recorder allocates; beyond it, data becomes coarser
-    std::uint32_t samplesPerDivision = 256;   ///< points on a face before it divides into four; at least 1
+    /// Points on a face before it divides into four; at least 1. "Several hundred" (Ruppert et al., section 4.1): a density
+    /// is then right within some six per cent on each face.
+    std::uint32_t samplesPerDivision = 512;
     /// No face divides whose children would have less area than a square with this edge, in scene units. Negative: 1/8192
     /// of the diagonal of the scene.
     float minimumEdge = -1;
