@@ -10,9 +10,8 @@ void SurfaceTally::place(std::int32_t mesh, std::int32_t face, float u, float v,
 
 void SurfaceTally::nextEvent(const EmitterSample& light) {
     if (!wantsNextEvents() || !light.shape) return;
-    const bool known = light.face >= 0;
-    PathTally::nextEvent({light.shape->index, known ? light.face : light.shape->faceAt(light.position), light.position,
-                          known ? light.barycentrics : light.shape->barycentricsAt(light.position)});
+    const ShapePlace at = light.face >= 0 ? ShapePlace{light.face, light.barycentrics} : light.shape->placeAt(light.position);
+    PathTally::nextEvent({light.shape->index, at.face, light.position, at.barycentrics});
 }
 
 }  // namespace emca::render

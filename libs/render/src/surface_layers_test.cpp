@@ -162,12 +162,12 @@ INSTANTIATE_TEST_SUITE_P(Samplers, SurfaceLayersTest, ::testing::Values(SamplerK
 TEST(SurfaceLayersOnAnalyticShapes, PointsAreLocatedOnTheFaceBelowThem) {
     const auto scene = busyScene();
     for (const auto& shape : scene->shapes()) {
-        if (shape->faceAt({0, 0, 0}) < 0) continue;
+        if (shape->placeAt({0, 0, 0}).face < 0) continue;
         const Mesh mesh = shape->displayMesh();
         for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
             const Triangle t = mesh.triangles[face];
             const Vec3f middle = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) * (1.f / 3);
-            EXPECT_EQ(shape->faceAt(middle), static_cast<std::int32_t>(face)) << shape->name;
+            EXPECT_EQ(shape->placeAt(middle).face, static_cast<std::int32_t>(face)) << shape->name;
         }
     }
 }

@@ -71,8 +71,8 @@ void DiskShape::interact(const Ray& ray, const RayHit& hit, SurfaceInteraction& 
     at.barycentrics = kNoBarycentrics;
 }
 
-std::int32_t DiskShape::faceAt(Vec3f position) const {
-    return diskFace(turn(planeCoordinates(widen(position))));
+ShapePlace DiskShape::placeAt(Vec3f position) const {
+    return {.face = diskFace(turn(planeCoordinates(widen(position))))};
 }
 
 Vec2f DiskShape::uv(std::int32_t, Vec2f, Vec3f position) const {

@@ -18,7 +18,7 @@ class DiskShape final : public Shape {
     Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
-    std::int32_t faceAt(Vec3f position) const override;
+    ShapePlace placeAt(Vec3f position) const override;
     std::uint64_t triangleCount() const override { return tessellation_.triangles.size(); }
 
     /// Distance along the ray in (nearest, farthest), or nothing.

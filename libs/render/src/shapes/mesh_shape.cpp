@@ -70,19 +70,17 @@ void MeshShape::interact(const Ray&, const RayHit& hit, SurfaceInteraction& at) 
     at.shading = Frame::fromNormal(normal);
 }
 
-std::int32_t MeshShape::faceAt(Vec3f position) const {
-    return parallelogram_ ? parallelogram_->face(parallelogram_->parametersOf(position)) : -1;
-}
-
-Vec2f MeshShape::barycentricsAt(Vec3f position) const {
-    return parallelogram_ ? parallelogram_->barycentrics(parallelogram_->parametersOf(position)) : kNoBarycentrics;
+ShapePlace MeshShape::placeAt(Vec3f position) const {
+    if (!parallelogram_) return {};
+    const Vec2f u = parallelogram_->parametersOf(position);
+    return {parallelogram_->face(u), parallelogram_->barycentrics(u)};
 }
 
 Vec2f MeshShape::uv(std::int32_t face, Vec2f bary, Vec3f position) const {
     if (face < 0 && parallelogram_) {
-        const Vec2f u = parallelogram_->parametersOf(position);
-        face = parallelogram_->face(u);
-        bary = parallelogram_->barycentrics(u);
+        const ShapePlace place = placeAt(position);
+        face = place.face;
+        bary = place.barycentrics;
     }
     if (mesh_.uvs.empty()) return bary;  // as Mitsuba gives
     const Triangle& t = mesh_.triangles[static_cast<std::size_t>(face)];

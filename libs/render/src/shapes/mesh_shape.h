@@ -22,8 +22,7 @@ class MeshShape final : public Shape {
     Vec2f uv(std::int32_t face, Vec2f barycentrics, Vec3f position) const override;
     RTCGeometryTy* makeGeometry(RTCDeviceTy* device) const override;
     emca::Mesh displayMesh() const override;
-    std::int32_t faceAt(Vec3f position) const override;
-    Vec2f barycentricsAt(Vec3f position) const override;
+    ShapePlace placeAt(Vec3f position) const override;
     std::uint64_t triangleCount() const override { return mesh_.triangles.size(); }
 
     /// sample() needs to know the areas; only lights pay for that. Before the shape joins a scene.

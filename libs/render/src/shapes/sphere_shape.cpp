@@ -61,8 +61,8 @@ Vec2f SphereShape::uv(std::int32_t, Vec2f, Vec3f position) const {
     return {azimuth < 0.f ? azimuth + 1.f : azimuth, std::acos(std::clamp(local.z, -1.f, 1.f)) * kInvPi};
 }
 
-std::int32_t SphereShape::faceAt(Vec3f position) const {
-    return sphereFace(toLocal(position));
+ShapePlace SphereShape::placeAt(Vec3f position) const {
+    return {.face = sphereFace(toLocal(position))};
 }
 
 Vec3f SphereShape::toLocal(Vec3f position) const {

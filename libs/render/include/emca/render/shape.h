@@ -31,8 +31,14 @@ struct ShapeSample {
     Vec3f normal;               ///< geometric, unit, towards the front
     float positionError = 0;    ///< as SurfaceInteraction's
     float pdf = 0;              ///< per steradian as seen from the place that asked
-    std::int32_t face = -1;     ///< triangle of a mesh; -1: Shape::faceAt() knows
+    std::int32_t face = -1;     ///< triangle of a mesh; -1: Shape::placeAt() knows
     Vec2f barycentrics = kNoBarycentrics;  ///< as SurfaceInteraction's
+};
+
+/// A point of a shape as a place on its displayMesh().
+struct ShapePlace {
+    std::int32_t face = -1;                ///< -1: of a mesh, whose points have their face with them
+    Vec2f barycentrics = kNoBarycentrics;  ///< if they are quick to find
 };
 
 /// Completes a sample whose points are chosen with equal density on all of a surface.
@@ -71,11 +77,8 @@ class Shape {
     /// Triangles for the explorer; `face` of interact() counts these. World space.
     virtual emca::Mesh displayMesh() const = 0;
     virtual std::uint64_t triangleCount() const = 0;  ///< of displayMesh()
-    /// The triangle of displayMesh() at a point of the surface, where points come without their face. -1: a mesh, whose
-    /// points have one.
-    virtual std::int32_t faceAt(Vec3f /*position*/) const { return -1; }
-    /// Barycentric coordinates in that triangle, if they are quick to find: else kNoBarycentrics.
-    virtual Vec2f barycentricsAt(Vec3f /*position*/) const { return kNoBarycentrics; }
+    /// Where a point of the surface is, for shapes whose points come without their face.
+    virtual ShapePlace placeAt(Vec3f /*position*/) const { return {}; }
 
     std::string name;                          ///< id in the scene file, else the plugin's type
     std::shared_ptr<const Bsdf> bsdf;          ///< never null in a scene
