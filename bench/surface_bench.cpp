@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "emca/core/seed_map.h"
 #include "emca/recorder/surface_recorder.h"
 #include "surface_for_tests.h"
 
@@ -44,12 +45,7 @@ struct Workload {
     bool barycentrics = false;  ///< given as such, as most ray tracers have them; else found from the position
 };
 
-std::uint64_t next(std::uint64_t& state) {  // SplitMix64
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
+std::uint64_t next(std::uint64_t& state) { return mix64(state += kGolden64); }
 
 /// Uniform over faces and over each face. Called again and again with other seeds, as 50 M samples need not be kept.
 void fill(std::vector<Sample>& samples, const Mesh& mesh, std::uint64_t seed, const Workload& work) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds emca-render once more, as fast as the compiler can make it: with a profile of how the scenes of this repository
-# are rendered, and with optimisation across files. Images stay equal, bit by bit, which is checked.
+# are rendered, for this machine's processor (-march=native), and with optimisation across files. Images stay equal, bit
+# by bit, which is checked.
 #   scripts/build-profiled.sh [FOLDER]     default: build/profiled; the program is FOLDER/bin/emca-render
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -5,7 +5,7 @@ namespace emca::mitsuba06 {
 namespace {
 
 /// SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014): a counter, mixed.
-std::uint64_t nextBits(std::uint64_t& state) { return mix64(state += 0x9e3779b97f4a7c15ull); }
+std::uint64_t nextBits(std::uint64_t& state) { return mix64(state += kGolden64); }
 
 /// In [0, 1).
 mts::Float nextNumber(std::uint64_t& state) {

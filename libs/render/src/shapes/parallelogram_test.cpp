@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <random>
 
-#include "emca/render/transform.h"
 
 namespace emca::render {
 namespace {
