@@ -79,6 +79,7 @@ double processorSeconds(clockid_t clock) {
 Times run(const Workload& work, int threads) {
     using Clock = std::chrono::steady_clock;
     const std::vector<Mesh> meshes = {terrain(work.side)};
+    // 256: as when the rows of docs/performance.md were measured.
     SurfaceRecorder recorder(meshes, {.budgetBytes = work.budget, .samplesPerDivision = 256, .minimumEdge = 0});
     std::vector<SurfaceLayer> layers;
     for (int i = 0; i < work.layers; ++i)

@@ -15,9 +15,12 @@ endif()
 # A library that a package's CMake file names but that no code of ours calls would cost time at each start.
 target_link_options(emca_flags INTERFACE LINKER:--as-needed)
 if(EMCA_SANITIZE)
-  # Not the check for null of UBSan: GCC 12 takes some thread-local objects for null, since it branches on flags that no
-  # instruction has set. AddressSanitizer reports what is really null.
-  target_compile_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE} -fno-sanitize=null -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_compile_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # Not UBSan's check for null: GCC 12 takes some thread-local objects for null, since it branches on flags that
+  # no instruction has set. AddressSanitizer reports what is really null.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(emca_flags INTERFACE -fno-sanitize=null)
+  endif()
   target_link_options(emca_flags INTERFACE -fsanitize=${EMCA_SANITIZE})
 endif()
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 
 #include "emca/core/surface_tree.h"
 #include "surface_store.h"
@@ -103,11 +104,8 @@ void SurfaceStore::leaveFaces(SurfaceShard& shard, std::uint32_t count, Lane* la
 /// From there to the nodes of the smallest triangles that contain the points, level by level: what is prefetched in one
 /// round is there in the next.
 void SurfaceStore::findNodes(std::uint32_t count, Lane* lanes) const {
-    std::uint32_t active[kLanes], left = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        active[left] = i;
-        left += descend(lanes[i]);
-    }
+    std::uint32_t active[kLanes], left = count;
+    std::iota(active, active + count, 0u);
     while (left > 0) {
         std::uint32_t still = 0;
         for (std::uint32_t k = 0; k < left; ++k) {
@@ -200,9 +198,9 @@ SurfaceRef* SurfaceStore::newSlot(SurfaceShard& shard, const std::uint32_t* reco
 SurfaceRef* SurfaceStore::newRoot(SurfaceShard& shard, std::uint32_t face) {
     if (!storesFaces_ || shard.full) return nullptr;
     Page*& page = pages_[face >> pageBits_];
-    if (page == nullptr) page = reinterpret_cast<Page*>(allocate(shard, pageBytes_));
+    if (page == nullptr) page = reinterpret_cast<Page*>(allocate(shard.memory, pageBytes_));
     if (page == nullptr) return nullptr;
-    SurfaceNode* node = allocateNodes(shard, 1);
+    SurfaceNode* node = allocateNodes(shard.memory, 1);
     if (node == nullptr) {
         shard.full = true;  // from here on, half of all samples may come this way
         return nullptr;

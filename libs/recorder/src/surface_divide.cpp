@@ -29,11 +29,11 @@ bool SurfaceStore::divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t wh
     SurfaceNode* node = ref.end(which, nodeBytes_);
     SurfaceRef* four = nullptr;
     if (ref.kind() == SurfaceRef::leaves) {  // its three siblings stay as they are
-        four = reinterpret_cast<SurfaceRef*>(allocate(shard, 4 * sizeof(SurfaceRef)));
+        four = reinterpret_cast<SurfaceRef*>(allocate(shard.memory, 4 * sizeof(SurfaceRef)));
         if (four == nullptr) return false;
         for (std::uint32_t i = 0; i < 4; ++i) four[i] = {ref.end(i, nodeBytes_), SurfaceRef::leaf};
     }
-    SurfaceNode* nodes = allocateNodes(shard, 4, sizeof(SurfaceNode*));
+    SurfaceNode* nodes = allocateNodes(shard.memory, 4, sizeof(SurfaceNode*));
     if (nodes == nullptr) return false;
     *SurfaceRef::parentOf(nodes, nodeBytes_) = node;
     const SurfaceRef divided(nodes, SurfaceRef::leaves);
@@ -54,27 +54,28 @@ bool SurfaceStore::mayDivide(std::uint32_t face, std::uint32_t level) const {
     return childArea > 0 && childArea >= minimumArea_;
 }
 
+/// Of all faces that have one, with the face.
+template <typename Visit>
+void SurfaceStore::forEachRoot(Visit visit) {
+    for (std::uint64_t page = 0; storesFaces_ && page << pageBits_ < faceCount_; ++page) {
+        if (pages_[page] == nullptr) continue;
+        const std::uint64_t end = std::min((page + 1) << pageBits_, faceCount_);
+        for (std::uint64_t face = page << pageBits_; face < end; ++face)
+            if (SurfaceRef* slot = slotOf(static_cast<std::uint32_t>(face)); *slot) visit(*slot, static_cast<std::uint32_t>(face));
+    }
+}
+
 void SurfaceStore::divideAll(double part) {
     flush();
     pointsToDivide_ = SurfaceNode::kFinal;
     const double growth = part > 0 ? 1 / part : 1;
-    for (std::uint64_t page = 0; storesFaces_ && page << pageBits_ < faceCount_; ++page) {
-        if (pages_[page] == nullptr) continue;
-        const std::uint64_t end = std::min((page + 1) << pageBits_, faceCount_);
-        for (std::uint64_t face = page << pageBits_; face < end; ++face) {
-            SurfaceRef* slot = slotOf(static_cast<std::uint32_t>(face));
-            if (!*slot) continue;
-            if (slot->kind() == SurfaceRef::table) freeTables_[slot->levels()].push_back(slot->entries());
-            *slot = slot->tree();
-            divideBelow(*slot, static_cast<std::uint32_t>(face), 0, 0, growth);
-        }
-    }
+    forEachRoot([&](SurfaceRef& root, std::uint32_t face) {
+        if (root.kind() == SurfaceRef::table) freeTables_[root.levels()].push_back(root.entries());
+        root = root.tree();
+        divideBelow(root, face, 0, 0, growth);
+    });
     // Last, so that tables stand side by side, and in the place of old ones.
-    for (std::uint64_t page = 0; storesFaces_ && page << pageBits_ < faceCount_; ++page) {
-        if (pages_[page] == nullptr) continue;
-        for (SurfaceRef& root : std::span(pages_[page]->roots, std::size_t(1) << pageBits_))
-            if (root) makeTable(root);
-    }
+    forEachRoot([&](SurfaceRef& root, std::uint32_t) { makeTable(root); });
 }
 
 namespace {

@@ -144,22 +144,22 @@ void SurfaceStore::divideBudget() {
     slabs_ = std::make_unique<std::atomic<std::byte*>[]>(std::max<std::uint64_t>(1, slabCount_));
 }
 
-std::byte* SurfaceStore::allocate(SurfaceShard& shard, std::size_t bytes, std::size_t alignment) {
-    const auto gap = [&] { return (~reinterpret_cast<std::uintptr_t>(shard.free) + 1) & (alignment - 1); };
-    const auto left = static_cast<std::size_t>(shard.freeEnd - shard.free);
-    if (left < gap() + bytes && !nextChunks(shard, bytes)) return nullptr;
-    std::byte* memory = shard.free + gap();
-    shard.free = memory + bytes;
+std::byte* SurfaceStore::allocate(SurfaceArena& arena, std::size_t bytes, std::size_t alignment) {
+    const auto gap = [&] { return (~reinterpret_cast<std::uintptr_t>(arena.free) + 1) & (alignment - 1); };
+    const auto left = static_cast<std::size_t>(arena.end - arena.free);
+    if (left < gap() + bytes && !nextChunks(arena, bytes)) return nullptr;
+    std::byte* memory = arena.free + gap();
+    arena.free = memory + bytes;
     return memory;
 }
 
-SurfaceNode* SurfaceStore::allocateNodes(SurfaceShard& shard, std::size_t count, std::size_t more) {
-    return reinterpret_cast<SurfaceNode*>(allocate(shard, count * nodeBytes_ + more, nodeAlignment_));
+SurfaceNode* SurfaceStore::allocateNodes(SurfaceArena& arena, std::size_t count, std::size_t more) {
+    return reinterpret_cast<SurfaceNode*>(allocate(arena, count * nodeBytes_ + more, nodeAlignment_));
 }
 
 /// Room for so many bytes, however they are aligned: one chunk for all but tables. What is left of the last is lost, unless
 /// the next follows it.
-bool SurfaceStore::nextChunks(SurfaceShard& shard, std::size_t bytes) {
+bool SurfaceStore::nextChunks(SurfaceArena& arena, std::size_t bytes) {
     const std::uint64_t count = std::max<std::uint64_t>(1, (bytes + chunkBytes_ - 1) / chunkBytes_);
     if (count > chunksPerSlab_ || nextChunk_.load(std::memory_order_relaxed) + count > chunkCount_) return false;
     std::uint64_t chunk = nextChunk_.fetch_add(count, std::memory_order_relaxed);
@@ -182,8 +182,8 @@ bool SurfaceStore::nextChunks(SurfaceShard& shard, std::size_t bytes) {
         }
     }
     std::byte* const first = memory + chunk % chunksPerSlab_ * chunkBytes_;
-    if (first != shard.freeEnd || chunk % chunksPerSlab_ == 0) shard.free = first;
-    shard.freeEnd = first + count * chunkBytes_;
+    if (first != arena.end || chunk % chunksPerSlab_ == 0) arena.free = first;
+    arena.end = first + count * chunkBytes_;
     std::memset(first, 0, count * chunkBytes_);
     return true;
 }

@@ -110,14 +110,19 @@ struct SurfaceBlock {
     std::uint32_t* data() { return reinterpret_cast<std::uint32_t*>(this + 1); }
 };
 
+/// What is left of the chunk that memory is taken from, piece by piece.
+struct SurfaceArena {
+    std::byte* free = nullptr;
+    std::byte* end = nullptr;
+};
+
 /// A part of all faces that one thread at a time may change. Handing over is a stack that anybody pushes to and the owner
 /// takes as a whole; whoever pushes and finds no owner becomes it. Each thread goes on at once in either case.
 struct alignas(64) SurfaceShard {
     std::atomic<SurfaceBlock*> waiting{nullptr};
     std::atomic<bool> busy{false};
     // The rest is the owner's. Counters are read by counts(), hence atomic; only the owner writes them.
-    std::byte* free = nullptr;     ///< of the chunk that new nodes come from
-    std::byte* freeEnd = nullptr;
+    SurfaceArena memory;           ///< of new nodes
     bool full = false;             ///< not even a node is left for it
     std::atomic<std::uint64_t> points{0}, coarse{0}, refused{0};
 };
@@ -236,6 +241,8 @@ class SurfaceStore {
     void divide(SurfaceShard& shard, SurfaceNode* node, const std::uint32_t* record);
     bool divide(SurfaceShard& shard, SurfaceRef& ref, std::uint32_t which);
     void divideBelow(SurfaceRef& ref, std::uint32_t face, std::uint32_t level, double inherited, double growth);
+    template <typename Visit>
+    void forEachRoot(Visit visit);
     void makeTable(SurfaceRef& ref);
     SurfaceRef* newTable(std::uint32_t levels);
     bool mayDivide(std::uint32_t face, std::uint32_t level) const;
@@ -244,10 +251,10 @@ class SurfaceStore {
     SurfaceRef* newRoot(SurfaceShard& shard, std::uint32_t face);  ///< null beyond the budget
     SurfaceRef* binOf(std::uint32_t face);
     /// Zeros; null beyond the budget. \param alignment  a power of two up to 64
-    std::byte* allocate(SurfaceShard& shard, std::size_t bytes, std::size_t alignment = alignof(SurfaceRef));
+    std::byte* allocate(SurfaceArena& arena, std::size_t bytes, std::size_t alignment = alignof(SurfaceRef));
     /// Nodes, one after the other, and `more` bytes.
-    SurfaceNode* allocateNodes(SurfaceShard& shard, std::size_t count, std::size_t more = 0);
-    bool nextChunks(SurfaceShard& shard, std::size_t bytes);
+    SurfaceNode* allocateNodes(SurfaceArena& arena, std::size_t count, std::size_t more = 0);
+    bool nextChunks(SurfaceArena& arena, std::size_t bytes);
 
     std::vector<SurfaceMeshView> meshes_;
     SurfaceOptions options_;
@@ -267,7 +274,7 @@ class SurfaceStore {
     std::uint64_t chunkCount_ = 0;
     bool storesFaces_ = true;  ///< false if the budget does not even hold a table of faces: bins only
     std::unique_ptr<SurfaceShard[]> shards_;
-    SurfaceShard tables_;  ///< where tables come from, while no thread records
+    SurfaceArena tables_;  ///< where tables come from, while no thread records
     std::array<std::vector<SurfaceRef*>, kMostTableLevels + 1> freeTables_;  ///< by their levels
     std::unique_ptr<Page*[]> pages_;        ///< 2^pageBits faces each; written by the owner of their shard
     std::unique_ptr<SurfaceRef[]> bins_;  ///< one per run of 2^runBits pages, for faces without storage
