@@ -177,6 +177,18 @@ TEST(SurfaceRecorder, WhatIsNotAPlaceOrAValueIsCountedAsInvalid) {
     EXPECT_EQ(field.value(field.layers[0], 1, 0), 0.f);
 }
 
+TEST(SurfaceRecorder, APointThatIsLocatedAnewKeepsNothingOfItsLastPlace) {
+    Collection c({grid(2)});
+    SurfaceCursor& surface = c.recorder.cursor();
+    SurfacePoint point = surface.locate(0, 0, Vec3f{0, 0, kNaN});  // the first that is invalid
+    surface.locate(0, 0, Vec2f{0.1f, 0.1f}, point);
+    c.mean.add(point, kNaN);  // and the second
+    c.mean.add(point, 2.f);
+    const SurfaceField field = c.recorder.finish();
+    EXPECT_EQ(field.counts.invalid, 2u);
+    EXPECT_EQ(field.counts.points, 1u);
+}
+
 TEST(SurfaceRecorder, PlacesOutsideTheirTriangleAreTakenToItsBorder) {
     Collection c({grid(1)}, {.samplesPerDivision = 1, .maximumLevel = 3});
     SurfaceCursor& surface = c.recorder.cursor();

@@ -243,6 +243,7 @@ inline void SurfaceCursor::locate(std::uint32_t mesh, std::uint32_t face, Vec2f 
     at.place_.mesh = mesh;
     at.place_.coordinates[0] = barycentrics.x;
     at.place_.coordinates[1] = barycentrics.y;
+    at.place_.coordinates[2] = 0;
     at.place_.flags = 0;
 }
 
